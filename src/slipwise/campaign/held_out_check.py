@@ -36,8 +36,8 @@ def check_untouched(runs: Sequence[Run]) -> tuple[str, ...]:
                 continue
             if run.role == "fit":
                 notes.append(
-                    f"the runs {other.name!r} ({other.file}) and {run.name!r} ({run.file}) share {shared.mean():.0%} of "
-                    "their samples: one measurement, which counts once, and of which wear and heat see the path twice"
+                    f"the runs {other.name!r} ({other.file}) and {run.name!r} ({run.file}) share {shared.mean():.0%} "
+                    "of their samples: one measurement, which counts once, and whose path wear and heat see twice"
                 )
             else:
                 raise InputError(

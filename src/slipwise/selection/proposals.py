@@ -36,6 +36,8 @@ _MOST, _ROUNDS = 9, 3
 _FINER = ((1.07, 2.0), (1.035, 2.0), (1.018, 1.4))
 #: A form is looked at more closely where it would explain so much [nats].
 _WORTH_A_LOOK = 0.5
+#: An effect that does this many times more in another run than in the last is replayed there too [1].
+_MUCH_MORE = 1.5
 #: A unit that a replay changes by less than this factor stays.
 _SAME_UNIT = 1.2
 
@@ -86,13 +88,15 @@ def propose(
     laps = _Laps({}, time.perf_counter())
     terms = [t for t in terms if not t.effect.replaces]
     rows = make_averaged_rows(base.objective)
-    units = compute_units(base, terms, limits)
-    laps.end("units")
     origin = make_base_hypothesis(base)
     raw = compute_raw_columns(base, list_forms(terms), rows)
+    laps.end("columns")
+    most = _find_runs_of_most(raw, rows)
+    units = compute_units(base, terms, limits, most)
+    laps.end("units")
     here = linearise(base, origin, rows, _in_units(raw, units, rows), limits)
     laps.end("columns")
-    here, posterior = _weighed(base, terms, here, limits, prior, laps)
+    here, posterior = _weighed(base, terms, here, limits, most, prior, laps)
     for _ in range(rounds):
         starts = list_likely(here, terms, posterior)
         if set(starts) == {t.label for t in here.hypothesis.terms}:
@@ -101,7 +105,7 @@ def propose(
         laps.end("refits")
         here = _linearised_again(base, here, found, terms, units, posterior, limits)
         laps.end("columns again")
-        here, posterior = _weighed(base, terms, here, limits, prior, laps)
+        here, posterior = _weighed(base, terms, here, limits, most, prior, laps)
     return ProposedModel(here, posterior, laps.seconds)
 
 
@@ -113,7 +117,13 @@ def _refitted(base: BaseFit, terms: Sequence[Term], starts: Mapping[str, Mapping
 
 
 def _weighed(
-    base: BaseFit, terms: Sequence[Term], here: Linearisation, limits: Materiality, prior: Prior | None, laps: _Laps
+    base: BaseFit,
+    terms: Sequence[Term],
+    here: Linearisation,
+    limits: Materiality,
+    most: Mapping[str, int],
+    prior: Prior | None,
+    laps: _Laps,
 ) -> tuple[Linearisation, Posterior]:
     """Compute the posterior, with units of what may matter replayed at the size and form that it says."""
     posterior = compute_posterior(here.statistics, here.columns, here.tolerances, prior, QUICK)
@@ -136,7 +146,7 @@ def _weighed(
             break
         done |= asked.keys()
         pairs = [(of[label], values) for (label, _), (values, _) in asked.items()]
-        shares = compute_shares_of_sizes(as_fit(base, here.hypothesis), pairs, limits)
+        shares = compute_shares_of_sizes(as_fit(base, here.hypothesis), pairs, limits, most)
         laps.end("units")
         factors = np.ones(len(here.columns))
         for ((label, form), (_, size)), share in zip(asked.items(), shares, strict=True):
@@ -155,6 +165,18 @@ def _weighed(
     posterior = compute_posterior(here.statistics, here.columns, here.tolerances, prior)
     laps.end("posterior")
     return here, posterior
+
+
+def _find_runs_of_most(raw: Sequence[CandidateColumn], rows: AveragedRows) -> dict[str, int]:
+    """Return label -> place of the fitted run in which a candidate does most, where it does much less in the last."""
+    runs = np.unique(rows.run)
+    out: dict[str, int] = {}
+    for c in raw:
+        if c.form == 0 and not c.gauge:
+            square = np.array([np.mean(c.column[rows.run == run].astype(float) ** 2) for run in runs])
+            if square.max() > _MUCH_MORE**2 * square[-1]:
+                out[c.label] = int(runs[square.argmax()])
+    return out
 
 
 def _closer_forms(

@@ -17,64 +17,30 @@ from slipwise.diagnosis.sensitivities import small
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.jobs.parallel import on_every_core
+from slipwise.model import Model
 from slipwise.relations.measurement import apply_gauge_faults
 from slipwise.relations.parameters import Term
 
 
-def compute_units(base: BaseFit, terms: Sequence[Term], limits: Materiality) -> dict[tuple[str, str], float]:
+def compute_units(
+    base: BaseFit, terms: Sequence[Term], limits: Materiality, most: Mapping[str, int]
+) -> dict[tuple[str, str], float]:
     """Return (label, strength) -> share of the limit that the small strength of its column changes [1].
 
     Args:
         base: the fit from which the candidates depart.
         terms: candidates.
         limits: what matters.
+        most: label -> place of a run in which the candidate does more than in the last one, if any.
     """
-    asked = [
-        (term, p.name, small(term.effect, shapes(term.effect)[0], p)) for term in terms for p in strengths(term.effect)
-    ]
-    shares = compute_shares_of_sizes(base, [(term, values) for term, _, values in asked], limits)
-    return {(term.label, name): share for (term, name, _), share in zip(asked, shares, strict=True)}
-
-
-def choose_shown(base: BaseFit) -> int:
-    """Return the place of the run whose answer tells what matters: the held-out one, else the last that is fitted."""
-    return [*base.objective.held_out, *base.objective.fitted[-1:]][0]
-
-
-def compute_share_of_limit(bare: Answer, there: Answer, base: BaseFit, place: int, limits: Materiality) -> float:
-    """Return the largest change between two answers of a run, as a share of what matters [1].
-
-    Args:
-        bare: the answer without.
-        there: the answer with what is asked for.
-        base: the fit, whose record says how large a channel is.
-        place: of the run.
-        limits: what matters.
-    """
-    record = base.objective.run(place).record
-    shares = [
-        compute_share_of_channel(there.channels[c] - bare.channels[c], record[c]) / limits.channel
-        for c in there.channels
-        if c in record and c in bare.channels
-    ]
-    shares += [abs(there.responses[r] / size - 1.0) / limits.response for r, size in bare.responses.items() if size > 0]
-    best = max(shares, default=0.0)
-    return best if np.isfinite(best) else 0.0
-
-
-def _share_of_gauge(base: BaseFit, term: Term, values: Mapping[str, float]) -> float:
-    keyed = {f"{term.label}.{k}": v for k, v in values.items()}
-    best = 0.0
-    for run in base.objective.fitted_runs:
-        changed = apply_gauge_faults([term], keyed, run.record)
-        for name in term.targets:
-            if name in run.record and name in changed:
-                best = max(best, compute_share_of_channel(changed[name] - run.record[name], run.record[name]))
-    return best
+    moved = [(term, p) for term in terms for p in strengths(term.effect)]
+    sizes = [(term, small(term.effect, shapes(term.effect)[0], p)) for term, p in moved]
+    shares = compute_shares_of_sizes(base, sizes, limits, most)
+    return {(term.label, p.name): share for (term, p), share in zip(moved, shares, strict=True)}
 
 
 def compute_shares_of_sizes(
-    here: BaseFit, asked: Sequence[tuple[Term, Mapping[str, float]]], limits: Materiality
+    here: BaseFit, asked: Sequence[tuple[Term, Mapping[str, float]]], limits: Materiality, most: Mapping[str, int]
 ) -> list[float]:
     """Return the share of the limit that each term changes at these values, added to a fit [1]; 0 where none answers.
 
@@ -82,22 +48,18 @@ def compute_shares_of_sizes(
         here: a fit without the terms.
         asked: term, and values of its parameters.
         limits: what matters.
+        most: as of `compute_units`.
     """
-    objective, shown = here.objective, choose_shown(here)
-    replayed = is_replayable(objective, shown)
-    whole = build_replayed_model(here)[0] if objective.specimen.free else objective.model(here.solution.values)
-    bare = compute_answer(whole, here, shown, replayed=replayed)
+    whole, places = _whole_model(here), [choose_shown(here), *dict.fromkeys(most.values())]
+    bare = {place: _answer(whole, here, place) for place in dict.fromkeys(places)}
 
     def share(k: int) -> float:
         term, values = asked[k]
-        try:
-            if term.effect.port == "gauge":
-                return _share_of_gauge(here, term, values) / limits.gauge
-            keyed = {f"{term.label}.{n}": v for n, v in values.items()}
-            there = compute_answer(whole.adding(*term.uses(keyed)), here, shown, replayed=replayed)
-        except (SlipwiseError, FloatingPointError):
-            return 0.0
-        return compute_share_of_limit(bare, there, here, shown, limits)
+        if term.effect.port == "gauge":
+            return _share_of_gauge(here, term, values, limits)
+        model = _having(whole, term, {f"{term.label}.{n}": v for n, v in values.items()})
+        own = [places[0], *([most[term.label]] if term.label in most else [])]
+        return _largest_share(here, model, bare, own, limits)
 
     return list(on_every_core(share, len(asked)))
 
@@ -110,22 +72,75 @@ def compute_sizes_in_place(here: BaseFit, terms: Sequence[Term], limits: Materia
         terms: of the model.
         limits: what matters.
     """
-    objective, values = here.objective, here.solution.values
-    shown = choose_shown(here)
-    replayed = is_replayable(objective, shown)
-    whole = build_replayed_model(here)[0] if objective.specimen.free else objective.model(values)
-    bare = compute_answer(whole, here, shown, replayed=replayed)
+    values, places = here.solution.values, list(dict.fromkeys([choose_shown(here), here.objective.fitted[0]]))
+    whole = _whole_model(here)
+    bare = {place: _answer(whole, here, place) for place in places}
 
     def size(k: int) -> float:
         term = terms[k]
-        try:
-            if term.effect.port == "gauge":
-                own = {n: values[f"{term.label}.{n}"] for n in term.effect.parameter_names}
-                return _share_of_gauge(here, term, own) / limits.gauge
-            less = whole.without(*(u.label for u in term.uses(values)))
-            there = compute_answer(less, here, shown, replayed=replayed)
-        except (SlipwiseError, FloatingPointError):
-            return 0.0
-        return compute_share_of_limit(bare, there, here, shown, limits)
+        if term.effect.port == "gauge":
+            own = {n: values[f"{term.label}.{n}"] for n in term.effect.parameter_names}
+            return _share_of_gauge(here, term, own, limits)
+        return _largest_share(here, whole.without(*(u.label for u in term.uses(values))), bare, places, limits)
 
     return {t.label: x for t, x in zip(terms, on_every_core(size, len(terms)), strict=True)}
+
+
+def choose_shown(base: BaseFit) -> int:
+    """Return the place of the run whose answer tells what matters: the held-out one, else the last that is fitted."""
+    return [*base.objective.held_out, *base.objective.fitted[-1:]][0]
+
+
+def _whole_model(here: BaseFit) -> Model:
+    return build_replayed_model(here)[0] if here.objective.specimen.free else here.objective.model(here.solution.values)
+
+
+def _answer(model: Model, here: BaseFit, place: int) -> Answer:
+    return compute_answer(model, here, place, replayed=is_replayable(here.objective, place))
+
+
+def _having(model: Model, term: Term, values: Mapping[str, float]) -> Model:
+    """Return a model with a term; one over whose slip friction turns round takes the place of the base's stick."""
+    if term.effect.reverses:
+        model = model.without(*(u.label for u in model.uses if u.effect.reverses))
+    return model.adding(*term.uses(values))
+
+
+def _largest_share(
+    here: BaseFit, model: Model, bare: Mapping[int, Answer], places: Sequence[int], limits: Materiality
+) -> float:
+    """Return the largest change against the bare answers, as a share of what matters [1]; 0 where none can be given.
+
+    Slip, energy and load count in the first of the places, channels in all: wear may be over when that run begins.
+    """
+    shares: list[float] = []
+    for number, place in enumerate(places):
+        try:
+            there = _answer(model, here, place)
+        except (SlipwiseError, FloatingPointError):
+            return 0.0
+        record, without = here.objective.run(place).record, bare[place]
+        shares += [
+            compute_share_of_channel(there.channels[c] - without.channels[c], record[c]) / limits.channel
+            for c in there.channels
+            if c in record and c in without.channels
+        ]
+        if number == 0:
+            sizes = {r: size for r, size in without.responses.items() if size > 0.0}
+            shares += [abs(there.responses[r] / size - 1.0) / limits.response for r, size in sizes.items()]
+    best = max(shares, default=0.0)
+    return best if np.isfinite(best) else 0.0
+
+
+def _share_of_gauge(here: BaseFit, term: Term, values: Mapping[str, float], limits: Materiality) -> float:
+    """Return by how much a fault changes the channel that it changes most, as a share of what matters [1]."""
+    keyed = {f"{term.label}.{k}": v for k, v in values.items()}
+    best = 0.0
+    try:
+        for run in here.objective.fitted_runs:
+            changed = apply_gauge_faults([term], keyed, run.record)
+            for name in (n for n in term.targets if n in run.record and n in changed):
+                best = max(best, compute_share_of_channel(changed[name] - run.record[name], run.record[name]))
+    except SlipwiseError:
+        return 0.0
+    return best / limits.gauge
