@@ -88,9 +88,11 @@ def main() -> None:
             make(order)
     answers = {f.stem: json.loads(f.read_text(encoding="utf-8")) for f in sorted(chosen.out.glob("answers/*.json"))}
     path = chosen.out / "verdicts.jsonl"
-    lines = path.read_text(encoding="utf-8").splitlines() if path.exists() and not chosen.anew else []
+    if chosen.anew:
+        path.unlink(missing_ok=True)
+    lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
     rows = {(row["name"], row["engine"]): row for row in map(json.loads, lines)}
-    with path.open("a" if rows else "w", encoding="utf-8") as stream:
+    with path.open("a", encoding="utf-8") as stream:  # two engines may write side by side
         for name, answer in answers.items():
             for engine in chosen.engines:
                 if (name, engine) in rows or not name.startswith(tuple(chosen.only)):
