@@ -160,7 +160,8 @@ class Diagnosis(Drawn, Tabular):
         fall = f"{error} {_short(self.recorded_error)} -> {_short(self.final_error)} times the noise floor"
         match self.verdict.kind:
             case "complete":
-                least = "that matters" if self.verdict.minor else "above the noise"
+                clean = is_at_floor(self.base_error) and not self.verdict.minor
+                least = "above the noise" if clean else "that matters"
                 return f"Nothing {least} is missing ({_short(self.base_error)} times the floor; {chance}){self._minor}."
             case "named":
                 more = "; form not exact" if self.verdict.leftover == "unknown" else ""
