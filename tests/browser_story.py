@@ -35,5 +35,15 @@ def error(page, of="fitted"):
     return float(page.locator(f'tr[data-relation="pads"] td.{of}').inner_text())
 
 
+def expect_at_floor(page):
+    """Wait until both errors of the pads are at the floor: they may come after the words that a fit is over."""
+    for of in ("fitted", "now"):
+        for _ in range(50):
+            if error(page, of) < 1.15:
+                break
+            page.wait_for_timeout(200)
+        assert error(page, of) < 1.15
+
+
 def number(name):
     return f'[id="number-{MISSING}.{name}"]'

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from browser_story import FIT, error, fitted, number, opened, rested
+from browser_story import FIT, error, expect_at_floor, fitted, number, opened, rested
 from session_campaign import MISSING
 
 expect = pytest.importorskip("playwright.sync_api").expect
@@ -34,7 +34,7 @@ def test_the_error_falls_to_the_floor_as_the_missing_effect_is_added_and_fitted(
     expect(page.locator("#standing")).to_have_text(f"{MISSING}.rise changed, not fitted")
     page.click("#fit")
     fitted(page)
-    assert error(page) < 1.15 and error(page, "now") < 1.15
+    expect_at_floor(page)
     assert page.locator("i.over").count() == 0
     page.click("#accept")
     expect(page.locator("#standing")).to_have_text("fitted, accepted")

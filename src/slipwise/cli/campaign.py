@@ -62,10 +62,10 @@ def audit(campaign: CampaignFolder, effect: Own = None, correct: Correct = None,
     with steps() as tell:
         tell("auditing the instruments", 0.2)
         found = sw.audit(measured, own=own)
-        notes = measured.notes
+        notes: tuple[str, ...] = ()
         if correct:
             corrected = sw.corrected_campaign(measured, found, correct)
-            notes = corrected.notes
+            notes = corrected.notes[len(measured.notes) :]
             tell("auditing once more", 0.6)
             found = sw.audit(corrected, own=own)
     if json:

@@ -19,7 +19,7 @@ BAND = 70.0
 #: Frequencies of the mains [Hz].
 _MAINS = (50.0, 60.0)
 #: A series with fewer samples that are judged tells nothing.
-_LEAST = 50
+_LEAST = 8
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class AveragedRows:
 
     def average(self, stacked: Array) -> Array:
         """Average stacked residuals or slopes of the fitted runs, (m, ...) -> (q, ...)."""
-        out: list[Array] = []
+        out: list[Array] = [np.zeros((0, *stacked.shape[1:]))]
         for each in self.series:
             part = np.asarray(stacked[each.rows], dtype=float)
             if each.hum.size:
@@ -98,9 +98,8 @@ def make_averaged_rows(objective: Objective) -> AveragedRows:
             relation.append(np.full(len(edges), number))
             run.append(np.full(len(edges), block.run))
             sigma.append(np.add.reduceat(noise[judged, column], edges) / counts)
-    return AveragedRows(
-        tuple(series), relations, np.concatenate(relation), np.concatenate(run), np.concatenate(sigma), samples
-    )
+    numbers, runs = (np.concatenate([np.zeros(0, np.int64), *parts]) for parts in (relation, run))
+    return AveragedRows(tuple(series), relations, numbers, runs, np.concatenate([np.zeros(0), *sigma]), samples)
 
 
 def _hum(time: Array, dt: float) -> Array:

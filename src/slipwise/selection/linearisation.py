@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from slipwise.arrays import Array
+from slipwise.arrays import Array, Mask
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.initial_grid import strengths
@@ -28,16 +28,37 @@ class Linearisation:
     Attributes:
         hypothesis: that was fitted.
         rows: how its residuals are averaged.
-        columns: of candidates, in units of materiality; of terms of the model the slopes of their strengths.
-        statistics: products.
-        tolerances: for `compute_posterior`.
+        left: (q,) averaged residual that would be left without the effects of the model.
+        fitted: (q,) averaged residual of the model.
+        slopes: (q, b) averaged slopes of the numbers that are fitted whatever is missing.
+        of_base: (b,) which of these belong to the base model.
+        tolerances: of these numbers, for `compute_posterior`.
+        own: columns of the effects of the model.
+        columns: of candidates, in units of materiality, then those of the model's own effects.
+        statistics: products of all these.
     """
 
     hypothesis: Hypothesis
     rows: AveragedRows
+    left: Array
+    fitted: Array
+    slopes: Array
+    of_base: Mask
+    tolerances: Mapping[int, tuple[float, float]]
+    own: tuple[CandidateColumn, ...]
     columns: tuple[CandidateColumn, ...]
     statistics: Statistics
-    tolerances: Mapping[int, tuple[float, float]]
+
+    @property
+    def beside(self) -> list[CandidateColumn]:
+        """Columns of candidates that are not in the model."""
+        return [c for c in self.columns if c.form != OF_MODEL]
+
+    def with_columns(self, beside: Sequence[CandidateColumn]) -> "Linearisation":
+        """Return the same model with other candidates beside it."""
+        every = (*beside, *self.own)
+        statistics = compute_statistics(self.rows, self.left, self.fitted, self.slopes, self.of_base, every)
+        return replace(self, columns=every, statistics=statistics)
 
 
 def as_fit(base: BaseFit, found: Hypothesis) -> BaseFit:
@@ -70,9 +91,10 @@ def linearise(
     strong = {f"{t.label}.{p.name}" for t in found.terms for p in strengths(t.effect)}
     free = [j for j, key in enumerate(keys) if key not in strong]  # of a strength the whole effect tells
     of_base = np.array([keys[j].rpartition(".")[0] not in labels for j in free], bool)
+    kept, tolerances = slopes[:, free], _tolerances(found, [keys[j] for j in free])
     every = (*columns, *own)
-    statistics = compute_statistics(rows, left, fitted, slopes[:, free], of_base, every)
-    return Linearisation(found, rows, every, statistics, _tolerances(found, [keys[j] for j in free]))
+    statistics = compute_statistics(rows, left, fitted, kept, of_base, every)
+    return Linearisation(found, rows, left, fitted, kept, of_base, tolerances, tuple(own), every, statistics)
 
 
 def _whole_effect(here: BaseFit, term: Term, rows: AveragedRows, slopes: Array, stacked: Array) -> Array:

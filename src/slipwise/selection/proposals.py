@@ -134,8 +134,7 @@ def _weighed(
         if not closer:
             break
         raw = compute_raw_columns(as_fit(base, here.hypothesis), closer, here.rows)
-        beside = [c for c in here.columns if c.form != OF_MODEL]
-        here = linearise(base, here.hypothesis, here.rows, [*beside, *_like_neighbours(raw, beside, here.rows)], limits)
+        here = here.with_columns([*here.beside, *_like_neighbours(raw, here.beside, here.rows)])
         laps.end("columns")
         posterior = compute_posterior(here.statistics, here.columns, here.tolerances, prior, QUICK)
         laps.end("posterior")
@@ -279,7 +278,7 @@ def _linearised_again(
     chance = dict(zip(posterior.labels, np.mean(posterior.sizes > 0.0, axis=0), strict=True))
     present = {t.label for t in found.terms}
     beside = [t for t in terms if t.label not in present and not any(at_odds(t, p) for p in found.terms)]
-    were = {c.label for c in before.columns if c.form != OF_MODEL}
+    were = {c.label for c in before.beside}
     anew = [t for t in beside if chance.get(t.label, 0.0) > _WORTH_A_REPLAY or t.label not in were]
     stays = {t.label for t in beside} - {t.label for t in anew}
     noise = (before.rows.sigma / rows.sigma).astype(np.float32)
