@@ -46,7 +46,8 @@ def test_a_planted_fault_is_the_only_finding_with_its_size(measured_with, fault,
     assert finding.low < finding.size < finding.high
     assert finding.probability > 0.5
     assert finding.settle_by and finding.mistaken_for
-    assert all(b.explained < 1.3 for b in report.balances)
+    # pads that are held against each other do not turn round at the same instant
+    assert all(b.explained < (1.5 if b.relation.startswith("pair_") else 1.15) for b in report.balances)
 
 
 def test_a_gauge_wired_the_wrong_way_round_is_found(measured_with):
