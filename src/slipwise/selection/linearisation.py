@@ -19,6 +19,8 @@ from slipwise.selection.units import compute_sizes_in_place
 
 #: Standard deviations of a rated mass, and of the constants of an effect in the model, as shares of the values [1].
 _MASS, _CONSTANTS = 0.03, 0.05
+#: A constant that is nearly zero keeps at least this share of its scale for its value [1].
+_LEAST = 0.02
 
 
 @dataclass(frozen=True)
@@ -126,5 +128,5 @@ def _tolerances(found: Hypothesis, keys: Sequence[str]) -> dict[int, tuple[float
             rated = found.objective.specimen.mass
             out[place] = ((rated - found.solution.values[key]) / f.scale, _MASS * rated / f.scale)
         elif key.rpartition(".")[0] in labels:
-            out[place] = (0.0, _CONSTANTS * min(1.0, abs(found.solution.values[key]) / f.scale))
+            out[place] = (0.0, _CONSTANTS * float(np.clip(abs(found.solution.values[key]) / f.scale, _LEAST, 1.0)))
     return out
