@@ -320,7 +320,7 @@ def list_likely(
     chance = np.mean((posterior.sizes > _LIMITS) & (posterior.seen > _FLOORS), axis=0)
     out: dict[str, dict[str, float]] = {}
     for t in np.argsort(-chance)[:_MOST]:
-        if chance[t] < least:
+        if chance[t] < least or chance[t] == 0.0:
             break
         forms = posterior.forms[:, t]
         values, counts = np.unique(forms[forms != -1], return_counts=True)
