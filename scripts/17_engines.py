@@ -48,8 +48,8 @@ def verdict_of(folder: Path, engine: str) -> dict[str, Any]:
         "base_error": float(f"{found.base_error:.4g}"),
         "final_error": float(f"{found.final_error:.4g}"),
         "findings": {
-            f.name: {key: float(f"{value:.4g}") for key, value in evidence.items()}
-            for f, evidence in ((f, {"lead": f.lead, "share": f.share, "limits": f.material}) for f in said.findings)
+            f.name: {"lead": round(f.lead, 2), "share": round(f.share, 3), "limits": round(f.material, 2)}
+            for f in said.findings
         },
         "seconds": round(time.perf_counter() - began, 1),
     }
@@ -87,6 +87,8 @@ def main() -> None:
         for order in orders(chosen.out, [FAMILIES[name] for name in QUICKEST], ["ode"], 1):
             make(order)
     answers = {f.stem: json.loads(f.read_text(encoding="utf-8")) for f in sorted(chosen.out.glob("answers/*.json"))}
+    if not answers:
+        parser.error(f"{chosen.out} holds no answer keys; make campaigns with scripts/16_families.py --out {chosen.out}")
     path = chosen.out / "verdicts.jsonl"
     if chosen.anew:
         path.unlink(missing_ok=True)

@@ -81,7 +81,7 @@ def compute_importance(final: BaseFit, terms: Sequence[Term], sizes: Sequence[In
     for term in terms:
         added.setdefault(term.effect.name, []).append(term)
     objective = final.objective
-    shown = [*objective.held_out, *objective.fitted[-1:]][0]
+    shown = choose_shown(final)
     places = {name: list(dict.fromkeys([shown, _where_most(final, of)])) for name, of in added.items()}
     asked = [("", place) for place in dict.fromkeys(p for of in places.values() for p in of)]
     asked += [(name, place) for name, of in places.items() for place in of]
@@ -122,6 +122,17 @@ class Answer:
     channels: Mapping[str, Array]
 
 
+def choose_shown(final: BaseFit) -> int:
+    """Return the place of the run whose answer tells what matters: the held-out one, else the last that is fitted."""
+    return [*final.objective.held_out, *final.objective.fitted[-1:]][0]
+
+
+def build_answering_model(final: BaseFit) -> Model:
+    """Return the fitted model as `compute_answer` needs it: a slider's is only driven."""
+    objective = final.objective
+    return build_replayed_model(final)[0] if objective.specimen.free else objective.model(final.solution.values)
+
+
 def is_replayable(objective: Objective, place: int) -> bool:
     """Return whether a run can be replayed: of a slider, and without the table's motion, it can only be driven."""
     return objective.specimen.free and "table_ax" in objective.run(place).record
@@ -134,8 +145,7 @@ def compute_answer(model: Model, final: BaseFit, place: int, *, replayed: bool) 
 
 def _models(final: BaseFit, added: Mapping[str, Sequence[Term]]) -> dict[str, Model]:
     """Return the final model by "", and by the name of each effect the model without it."""
-    values = final.solution.values
-    whole = build_replayed_model(final)[0] if final.objective.specimen.free else final.objective.model(values)
+    values, whole = final.solution.values, build_answering_model(final)
     return {"": whole} | {n: whole.without(*(u.label for t in of for u in t.uses(values))) for n, of in added.items()}
 
 

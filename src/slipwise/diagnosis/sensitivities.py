@@ -1,6 +1,6 @@
 """Columns of a screen: what a candidate of some size changes in the residual of the base fit."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from slipwise.diagnosis.row_subset import on_screen
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.objective import Objective
 from slipwise.params import Parameter
 from slipwise.relations.measurement import is_shifting
 from slipwise.relations.parameters import Term
@@ -37,19 +38,37 @@ def typical(effect: Effect, moved: Parameter) -> float:
 
 
 def compute_column(base: BaseFit, term: Term, moved: Parameter, values: dict[str, float], left: Array) -> Array | None:
-    """Return the change of the residual.
+    """Return the change of the screened residual by one strength, see `compute_change`; None where it has none."""
+    return compute_change(lambda v: compute_residual_with(base, term, v), term, moved, values, left)
+
+
+def compute_change(
+    residual_with: Callable[[Mapping[str, float]], Array | None],
+    term: Term,
+    moved: Parameter,
+    values: Mapping[str, float],
+    left: Array,
+) -> Array | None:
+    """Return the change of a residual by one strength of a candidate; None where it cannot be evaluated.
 
     Undoing a lag moves noise in time, and half way between moved and unmoved noise there is less of it, as there is of
     noise that drives a table and is whitened: a column that looked one way only would find a false gain. Both ways
     together do not.
+
+    Args:
+        residual_with: gives the residual with the candidate at some values of its parameters.
+        term: the candidate.
+        moved: the strength.
+        values: of its parameters, the strength at a small size.
+        left: (m,) residual without the candidate.
     """
-    there = compute_residual_with(base, term, values)
+    there = residual_with(values)
     if there is None:
         return None
     off = float(moved.neutral or 0.0)
     back = 2.0 * off - values[moved.name]
     if (term.effect.port == "table" or is_shifting([term])) and moved.low <= back <= moved.high:
-        other = compute_residual_with(base, term, {**values, moved.name: back})
+        other = residual_with({**values, moved.name: back})
         return None if other is None else 0.5 * (there - other)
     return there - left
 
@@ -65,11 +84,32 @@ def compute_residual_with(
         values: of its parameters.
         moved: base parameters that are not as the base fit left them.
     """
-    objective = base.objective.adding(term)
     keyed = {f"{term.label}.{k}": v for k, v in values.items()}
+    objective = base.objective.adding(term)
+    stacked = evaluate_stacked(objective, {**base.solution.values, **(moved or {}), **keyed})
+    return None if stacked is None else _finite(on_screen(objective, stacked))
+
+
+def compute_stacked_with(base: BaseFit, term: Term, values: Mapping[str, float]) -> Array | None:
+    """Return the residual (m,) of the fitted runs with a candidate at every sample; None where it has none.
+
+    Args:
+        base: the base fit.
+        term: the candidate.
+        values: of its parameters.
+    """
+    keyed = {f"{term.label}.{k}": v for k, v in values.items()}
+    stacked = evaluate_stacked(base.objective.adding(term), {**base.solution.values, **keyed})
+    return None if stacked is None else _finite(stacked)
+
+
+def evaluate_stacked(objective: Objective, values: Mapping[str, float]) -> Array | None:
+    """Return the stacked residual (m,) of the fitted runs; None where it cannot be evaluated."""
     try:
-        found = objective.residuals({**base.solution.values, **(moved or {}), **keyed}, fitted_only=True)
+        return objective.residuals(values, fitted_only=True).stacked(objective.fitted)
     except SlipwiseError:
         return None
-    stacked = on_screen(objective, found.stacked(objective.fitted))
+
+
+def _finite(stacked: Array) -> Array | None:
     return stacked if np.isfinite(stacked).all() else None

@@ -12,12 +12,10 @@ from numpy.typing import NDArray
 
 from slipwise.arrays import Array
 from slipwise.diagnosis.initial_grid import shapes, strengths, two_sided
-from slipwise.diagnosis.sensitivities import small
-from slipwise.errors import SlipwiseError
+from slipwise.diagnosis.sensitivities import compute_change, compute_stacked_with, small
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.jobs.parallel import on_every_core
 from slipwise.params import Parameter
-from slipwise.relations.measurement import is_shifting
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows
 
@@ -26,8 +24,6 @@ FloatArray = NDArray[np.float32]
 
 #: Number of the form of an effect that is in the model: its constants are those of the fit.
 OF_MODEL = -2
-#: Name of what is in no catalogue.
-UNKNOWN = "unknown"
 
 
 @dataclass(frozen=True)
@@ -129,41 +125,7 @@ def _columns_of(
         for moved in strengths(term.effect):
             values = small(term.effect, form.shape, moved)
             step = values[moved.name] - float(moved.neutral or 0.0)
-            change = _change(base, term, moved, values, left)
+            change = compute_change(lambda v: compute_stacked_with(base, term, v), term, moved, values, left)
             if change is not None and np.any(change):
                 out.append((form.number, moved.name, values, step, rows.average(change).astype(np.float32)))
     return out
-
-
-def _change(base: BaseFit, term: Term, moved: Parameter, values: Mapping[str, float], left: Array) -> Array | None:
-    """Return the change of the stacked residual by a step of one strength; both ways where a fault moves noise in time.
-
-    Half way between moved and unmoved noise there is less of it: a column that looked one way only would find a false
-    gain.
-    """
-    there = compute_stacked_with(base, term, values)
-    if there is None:
-        return None
-    back = 2.0 * float(moved.neutral or 0.0) - values[moved.name]
-    if (term.effect.port == "table" or is_shifting([term])) and moved.low <= back <= moved.high:
-        other = compute_stacked_with(base, term, {**values, moved.name: back})
-        return None if other is None else 0.5 * (there - other)
-    return there - left
-
-
-def compute_stacked_with(base: BaseFit, term: Term | None, values: Mapping[str, float]) -> Array | None:
-    """Return the stacked residual (m,) of the fitted runs with a candidate; None where it cannot be evaluated.
-
-    Args:
-        base: the fit from which it departs.
-        term: the candidate; None for numbers of the fit itself.
-        values: of its parameters; of numbers of the fit by their keys.
-    """
-    objective = base.objective if term is None else base.objective.adding(term)
-    keyed = values if term is None else {f"{term.label}.{name}": value for name, value in values.items()}
-    try:
-        found = objective.residuals({**base.solution.values, **keyed}, fitted_only=True)
-    except SlipwiseError:
-        return None
-    stacked = found.stacked(objective.fitted)
-    return stacked if np.isfinite(stacked).all() else None

@@ -8,12 +8,14 @@ import numpy as np
 from slipwise.arrays import Array, Mask
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.hypothesis_fit import make_fit
 from slipwise.diagnosis.initial_grid import strengths
+from slipwise.diagnosis.sensitivities import evaluate_stacked
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.relations.measurement import is_shifting
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows
-from slipwise.selection.columns import OF_MODEL, CandidateColumn, compute_stacked_with, make_column
+from slipwise.selection.columns import OF_MODEL, CandidateColumn, make_column
 from slipwise.selection.statistics import Statistics, compute_statistics
 from slipwise.selection.units import compute_sizes_in_place
 
@@ -63,11 +65,6 @@ class Linearisation:
         return replace(self, columns=every, statistics=statistics)
 
 
-def as_fit(base: BaseFit, found: Hypothesis) -> BaseFit:
-    """Return a hypothesis as the fit from which candidates depart."""
-    return replace(base, objective=found.objective, free=tuple(found.solution.free), solution=found.solution)
-
-
 def linearise(
     base: BaseFit, found: Hypothesis, rows: AveragedRows, columns: Sequence[CandidateColumn], limits: Materiality
 ) -> Linearisation:
@@ -75,7 +72,7 @@ def linearise(
 
     Sizes are counted from absence: what the strengths of the model's own effects explain is brought back.
     """
-    here = as_fit(base, found)
+    here = make_fit(base, found, with_slopes=False)
     objective, solution = found.objective, found.solution
     slopes = rows.average(solution.jacobian)
     stacked = solution.residuals.stacked(objective.fitted)
@@ -107,8 +104,8 @@ def _whole_effect(here: BaseFit, term: Term, rows: AveragedRows, slopes: Array, 
     absent = {p.name: float(p.neutral or 0.0) for p in strengths(term.effect)}
     values = here.solution.values
     if not is_shifting([term]):
-        there = compute_stacked_with(here, None, {f"{term.label}.{n}": x for n, x in absent.items()})
-        if there is not None:
+        there = evaluate_stacked(here.objective, {**values, **{f"{term.label}.{n}": x for n, x in absent.items()}})
+        if there is not None and np.isfinite(there).all():
             return rows.average(stacked - there)
     free = here.solution.free
     steps = {f"{term.label}.{n}": values[f"{term.label}.{n}"] - x for n, x in absent.items()}

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.arrays import Array
-from slipwise.selection.columns import OF_MODEL, UNKNOWN, CandidateColumn
+from slipwise.selection.columns import OF_MODEL, CandidateColumn
 from slipwise.selection.sampler import sample_places
 from slipwise.selection.statistics import Statistics
 
@@ -44,7 +44,6 @@ class Prior:
         independent: samples as which a relation counts at most.
         floor: least variance of what is left of a relation [noise variance].
         places: how many effects may matter at once.
-        unknown: chance that something matters which is in no catalogue.
     """
 
     trifle: float = 0.15
@@ -55,11 +54,6 @@ class Prior:
     independent: float = 100.0
     floor: float = 0.3
     places: int = 12
-    unknown: float = 0.03
-
-    def chance_of(self, effect: str) -> float:
-        """Return the chance that an effect matters."""
-        return self.unknown if effect == UNKNOWN else self.chance
 
 
 @dataclass(frozen=True)
@@ -146,9 +140,7 @@ def compute_posterior(
     statistics: Statistics,
     columns: Sequence[CandidateColumn],
     tolerances: Mapping[int, tuple[float, float]],
-    prior: Prior | None = None,
     effort: Effort | None = None,
-    seed: int = 0,
 ) -> Posterior:
     """Sample what is missing.
 
@@ -161,17 +153,15 @@ def compute_posterior(
         columns: of the candidates, in units of materiality.
         tolerances: place of a base number -> how far its rated value lies from the fitted one, and its standard
             deviation about that [its scale].
-        prior: what is believed before.
         effort: how thoroughly it is sampled.
-        seed: of the random numbers.
     """
-    prior, effort = prior or Prior(), effort or Effort()
+    prior, effort = Prior(), effort or Effort()
     forms = _group(columns)
     base = statistics.base
     effects = forms.effects
     shared = {e: effects.count(e) for e in effects}
     per_form = np.bincount(forms.owner, minlength=len(forms.labels))
-    odds = np.log([prior.chance_of(effects[t]) / shared[effects[t]] / per_form[t] / prior.places for t in forms.owner])
+    odds = np.log([prior.chance / shared[effects[t]] / per_form[t] / prior.places for t in forms.owner])
     one_sided = np.array([not c.two_sided for c in columns])
     small = np.where(forms.gauge, prior.trifle_of_gauges, prior.trifle)
     trifle = np.empty(len(columns))
@@ -202,11 +192,11 @@ def compute_posterior(
         visited = [
             sample_places(
                 precision, pulled, forms.columns, forms.length, forms.owner, odds, widths, odds_of, one_sided,
-                as_fitted if chain % 2 == 0 else none, sweeps, seed + chain,
+                as_fitted if chain % 2 == 0 else none, sweeps, chain,
             )
             for chain in range(chains)
         ]  # fmt: skip
-        taken, sizes = _draw(precision, pulled, forms, widths, one_sided, visited, effort.draws if last else 60, seed)
+        taken, sizes = _draw(precision, pulled, forms, widths, one_sided, visited, effort.draws if last else 60)
         mean = sizes.mean(axis=0)
         everything = solved[:, -1] - solved[:, :-1] @ mean
         everything[inside] += mean
@@ -223,14 +213,14 @@ def compute_posterior(
 
 def _draw(
     precision: Array, pulled: Array, forms: _Forms, widths: Array, one_sided: NDArray[np.bool_],
-    visited: Sequence[tuple[Ints, Ints, Array]], draws: int, seed: int,
+    visited: Sequence[tuple[Ints, Ints, Array]], draws: int,
 ) -> tuple[Ints, Array]:  # fmt: skip
     """Draw from what was visited, each once, by its posterior: forms of the places (n, p), and sizes (n, K)."""
     taken, width, worth = (np.concatenate(parts) for parts in zip(*visited, strict=True))
     code = np.sort(np.where(taken >= 0, taken * len(widths) + width, -1), axis=1)
     states, first = np.unique(code, axis=0, return_index=True)
     chance = np.exp(worth[first] - worth[first].max())
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(0)
     picked = rng.choice(len(states), size=draws, p=chance / chance.sum())
     sizes = np.zeros((draws, len(pulled)))
     for state in np.unique(picked):

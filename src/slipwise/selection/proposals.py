@@ -1,6 +1,5 @@
 """What a campaign proposes: posterior, refit with what is likely, columns anew, until nothing new is likely."""
 
-import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -9,6 +8,7 @@ from numpy.typing import NDArray
 
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, refit
+from slipwise.diagnosis.hypothesis_fit import make_fit
 from slipwise.diagnosis.initial_grid import REFERENCES, is_placed, strengths
 from slipwise.diagnosis.pairs import at_odds
 from slipwise.estimation.base_fit import BaseFit
@@ -22,8 +22,8 @@ from slipwise.selection.columns import (
     compute_raw_columns,
     list_forms,
 )
-from slipwise.selection.linearisation import Linearisation, as_fit, linearise
-from slipwise.selection.posterior import QUICK, Posterior, Prior, compute_posterior
+from slipwise.selection.linearisation import Linearisation, linearise
+from slipwise.selection.posterior import QUICK, Posterior, compute_posterior
 from slipwise.selection.statistics import scale_columns
 from slipwise.selection.units import compute_shares_of_sizes, compute_units
 
@@ -49,12 +49,10 @@ class ProposedModel:
     Attributes:
         linearisation: the last one.
         posterior: over what is in its model and beside it.
-        seconds: of each step.
     """
 
     linearisation: Linearisation
     posterior: Posterior
-    seconds: Mapping[str, float]
 
     @property
     def hypothesis(self) -> Hypothesis:
@@ -62,51 +60,30 @@ class ProposedModel:
         return self.linearisation.hypothesis
 
 
-@dataclass
-class _Laps:
-    seconds: dict[str, float]
-    began: float
-
-    def end(self, name: str) -> None:
-        now = time.perf_counter()
-        self.seconds[name] = self.seconds.get(name, 0.0) + now - self.began
-        self.began = now
-
-
-def propose(
-    base: BaseFit, terms: Sequence[Term], limits: Materiality, prior: Prior | None = None, rounds: int = _ROUNDS
-) -> ProposedModel:
+def propose(base: BaseFit, terms: Sequence[Term], limits: Materiality) -> ProposedModel:
     """Propose what is missing.
 
     Args:
         base: the base fit.
         terms: candidates.
         limits: what matters.
-        prior: what is believed before.
-        rounds: linearisations after the first at most.
     """
-    laps = _Laps({}, time.perf_counter())
     terms = [t for t in terms if not t.effect.replaces]
     rows = make_averaged_rows(base.objective)
     origin = make_base_hypothesis(base)
     raw = compute_raw_columns(base, list_forms(terms), rows)
-    laps.end("columns")
     most = _find_runs_of_most(raw, rows)
     units = compute_units(base, terms, limits, most)
-    laps.end("units")
     here = linearise(base, origin, rows, _in_units(raw, units, rows), limits)
-    laps.end("columns")
-    here, posterior = _weighed(base, terms, here, limits, most, prior, laps)
-    for _ in range(rounds):
+    here, posterior = _weighed(base, terms, here, limits, most)
+    for _ in range(_ROUNDS):
         starts = list_likely(here, terms, posterior)
         if set(starts) == {t.label for t in here.hypothesis.terms}:
             break
         found = _refitted(base, [t for t in terms if t.label in starts], starts) if starts else origin
-        laps.end("refits")
         here = _linearised_again(base, here, found, terms, units, posterior, limits)
-        laps.end("columns again")
-        here, posterior = _weighed(base, terms, here, limits, most, prior, laps)
-    return ProposedModel(here, posterior, laps.seconds)
+        here, posterior = _weighed(base, terms, here, limits, most)
+    return ProposedModel(here, posterior)
 
 
 def _refitted(base: BaseFit, terms: Sequence[Term], starts: Mapping[str, Mapping[str, float]]) -> Hypothesis:
@@ -122,22 +99,17 @@ def _weighed(
     here: Linearisation,
     limits: Materiality,
     most: Mapping[str, int],
-    prior: Prior | None,
-    laps: _Laps,
 ) -> tuple[Linearisation, Posterior]:
     """Compute the posterior, with units of what may matter replayed at the size and form that it says."""
-    posterior = compute_posterior(here.statistics, here.columns, here.tolerances, prior, QUICK)
-    laps.end("posterior")
+    posterior = compute_posterior(here.statistics, here.columns, here.tolerances, QUICK)
     of = {t.label: t for t in terms}
     for finer in _FINER:
         closer = _closer_forms(here, of, posterior, finer)
         if not closer:
             break
-        raw = compute_raw_columns(as_fit(base, here.hypothesis), closer, here.rows)
+        raw = compute_raw_columns(make_fit(base, here.hypothesis, with_slopes=False), closer, here.rows)
         here = here.with_columns([*here.beside, *_like_neighbours(raw, here.beside, here.rows)])
-        laps.end("columns")
-        posterior = compute_posterior(here.statistics, here.columns, here.tolerances, prior, QUICK)
-        laps.end("posterior")
+        posterior = compute_posterior(here.statistics, here.columns, here.tolerances, QUICK)
     done = set[tuple[str, int]]()
     for _ in range(2):
         asked = {k: v for k, v in _worth_a_replay(here, of, posterior).items() if k not in done}
@@ -145,8 +117,7 @@ def _weighed(
             break
         done |= asked.keys()
         pairs = [(of[label], values) for (label, _), (values, _) in asked.items()]
-        shares = compute_shares_of_sizes(as_fit(base, here.hypothesis), pairs, limits, most)
-        laps.end("units")
+        shares = compute_shares_of_sizes(make_fit(base, here.hypothesis, with_slopes=False), pairs, limits, most)
         factors = np.ones(len(here.columns))
         for ((label, form), (_, size)), share in zip(asked.items(), shares, strict=True):
             if share > 0.0 and size > 0.0 and not 1.0 / _SAME_UNIT < share / size < _SAME_UNIT:
@@ -159,10 +130,8 @@ def _weighed(
             for c, f in zip(here.columns, factors, strict=True)
         )
         here = replace(here, columns=columns, statistics=scale_columns(here.statistics, factors))
-        posterior = compute_posterior(here.statistics, here.columns, here.tolerances, prior, QUICK)
-        laps.end("posterior")
-    posterior = compute_posterior(here.statistics, here.columns, here.tolerances, prior)
-    laps.end("posterior")
+        posterior = compute_posterior(here.statistics, here.columns, here.tolerances, QUICK)
+    posterior = compute_posterior(here.statistics, here.columns, here.tolerances)
     return here, posterior
 
 
@@ -283,7 +252,7 @@ def _linearised_again(
     stays = {t.label for t in beside} - {t.label for t in anew}
     noise = (before.rows.sigma / rows.sigma).astype(np.float32)
     kept = [replace(c, column=c.column * noise) for c in before.columns if c.label in stays]
-    raw = compute_raw_columns(as_fit(base, found), list_forms(anew), rows)
+    raw = compute_raw_columns(make_fit(base, found, with_slopes=False), list_forms(anew), rows)
     return linearise(base, found, rows, [*kept, *_in_units(raw, units, rows)], limits)
 
 

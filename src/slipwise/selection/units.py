@@ -10,8 +10,14 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from slipwise.campaign.materiality import Materiality
-from slipwise.comparison.system_level import build_replayed_model
-from slipwise.diagnosis.importance import Answer, compute_answer, compute_share_of_channel, is_replayable
+from slipwise.diagnosis.importance import (
+    Answer,
+    build_answering_model,
+    choose_shown,
+    compute_answer,
+    compute_share_of_channel,
+    is_replayable,
+)
 from slipwise.diagnosis.initial_grid import shapes, strengths
 from slipwise.diagnosis.sensitivities import small
 from slipwise.errors import SlipwiseError
@@ -50,7 +56,7 @@ def compute_shares_of_sizes(
         limits: what matters.
         most: as of `compute_units`.
     """
-    whole, places = _whole_model(here), [choose_shown(here), *dict.fromkeys(most.values())]
+    whole, places = build_answering_model(here), [choose_shown(here), *dict.fromkeys(most.values())]
     bare = {place: _answer(whole, here, place) for place in dict.fromkeys(places)}
 
     def share(k: int) -> float:
@@ -73,7 +79,7 @@ def compute_sizes_in_place(here: BaseFit, terms: Sequence[Term], limits: Materia
         limits: what matters.
     """
     values, places = here.solution.values, list(dict.fromkeys([choose_shown(here), here.objective.fitted[0]]))
-    whole = _whole_model(here)
+    whole = build_answering_model(here)
     bare = {place: _answer(whole, here, place) for place in places}
 
     def size(k: int) -> float:
@@ -84,15 +90,6 @@ def compute_sizes_in_place(here: BaseFit, terms: Sequence[Term], limits: Materia
         return _largest_share(here, whole.without(*(u.label for u in term.uses(values))), bare, places, limits)
 
     return {t.label: x for t, x in zip(terms, on_every_core(size, len(terms)), strict=True)}
-
-
-def choose_shown(base: BaseFit) -> int:
-    """Return the place of the run whose answer tells what matters: the held-out one, else the last that is fitted."""
-    return [*base.objective.held_out, *base.objective.fitted[-1:]][0]
-
-
-def _whole_model(here: BaseFit) -> Model:
-    return build_replayed_model(here)[0] if here.objective.specimen.free else here.objective.model(here.solution.values)
 
 
 def _answer(model: Model, here: BaseFit, place: int) -> Answer:

@@ -5,8 +5,8 @@ import pytest
 
 from slipwise.arrays import Array
 from slipwise.selection.averaged_rows import AveragedRows
-from slipwise.selection.columns import UNKNOWN, CandidateColumn
-from slipwise.selection.posterior import Posterior, Prior, compute_posterior
+from slipwise.selection.columns import CandidateColumn
+from slipwise.selection.posterior import Posterior, compute_posterior
 from slipwise.selection.statistics import compute_statistics, scale_columns
 
 ROWS = 3000
@@ -132,7 +132,3 @@ def test_scaled_columns_give_what_columns_taken_so_would() -> None:
     other = compute_statistics(rows_of(), left, left, slopes, of_base, scaled)
     assert np.allclose(one.products, other.products, rtol=1e-5)
     assert np.allclose(one.pulls, other.pulls, rtol=1e-5, atol=1e-3)
-
-
-def test_something_unknown_is_believed_less_readily_than_a_law_of_the_catalogue() -> None:
-    assert Prior().chance_of(UNKNOWN) < Prior().chance_of("heating")
