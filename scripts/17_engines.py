@@ -88,7 +88,7 @@ def main() -> None:
             make(order)
     answers = {f.stem: json.loads(f.read_text(encoding="utf-8")) for f in sorted(chosen.out.glob("answers/*.json"))}
     if not answers:
-        parser.error(f"{chosen.out} holds no answer keys; make campaigns with scripts/16_families.py --out {chosen.out}")
+        parser.error(f"{chosen.out} holds no answer keys; make campaigns there with scripts/16_families.py --out")
     path = chosen.out / "verdicts.jsonl"
     if chosen.anew:
         path.unlink(missing_ok=True)
