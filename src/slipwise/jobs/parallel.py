@@ -28,7 +28,7 @@ import scipy.linalg  # noqa: F401
 from threadpoolctl import ThreadpoolController, threadpool_limits
 
 from slipwise.errors import CacheWarning, SlipwiseError
-from slipwise.jobs.interruption import let_parent_hear, unheard_by_children
+from slipwise.jobs.interruption import Stopped, let_parent_hear, stoppable, unheard_by_children
 
 Answer = TypeVar("Answer")
 #: Bytes that pieces of work may take side by side.
@@ -206,18 +206,25 @@ def _child(work: Callable[[int], Any], shared: _Shared, places: Iterator[int]) -
 
 
 def _as_child(work: Callable[[int], Any], shared: _Shared, places: Iterator[int]) -> None:
-    # A child that its parent ends removes a file that it has half written.
-    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)  # not what the parent does then
     begin_worker()
-    for place in places:
+    try:
+        with stoppable():  # a child that its parent ends removes a file that it has half written
+            for place in places:
+                _do(work, shared, place)
+    except Stopped as asked:
+        sys.exit(asked.code)
+
+
+def _do(work: Callable[[int], Any], shared: _Shared, place: int) -> None:
+    try:
+        shared.put(place, _Outcome(work(place)))
+    except Exception as error:
+        error.add_note("".join(traceback.format_exception(error)))
         try:
-            shared.put(place, _Outcome(work(place)))
-        except Exception as error:
-            error.add_note("".join(traceback.format_exception(error)))
-            try:
-                shared.put(place, _Outcome(error=error))
-            except OSError:  # no room even for that: the place stays undone
-                sys.exit(1)
+            shared.put(place, _Outcome(error=error))
+        except OSError:  # no room even for that: the place stays undone
+            sys.exit(1)
 
 
 def begin_worker(*, own_cores: bool = False) -> None:

@@ -104,7 +104,21 @@ def test_work_that_kills_two_children_is_an_error_that_names_it(
         list(on_every_core(work, 4, "the pictures"))
 
 
-def test_a_child_that_is_ended_tidies_up(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+class LongFinaliser:
+    """Is at work on its finaliser while the process is asked to end: Python ignores what is raised there."""
+
+    def __init__(self, begins: Callable[[float], object]) -> None:
+        self.begins = begins
+
+    def __del__(self) -> None:
+        self.begins(LONG)
+        time.sleep(0.5)
+
+
+@pytest.mark.parametrize("finalises", [False, True])
+def test_a_child_that_is_ended_tidies_up(
+    finalises: bool, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.setattr(cores, "_cores", lambda: 2)
     here, meeting = os.getpid(), FORKED.Barrier(2)
 
@@ -115,7 +129,11 @@ def test_a_child_that_is_ended_tidies_up(monkeypatch: pytest.MonkeyPatch, tmp_pa
             meeting.wait(LONG)
             return
         with written_beside(tmp_path / "picture.png"):
-            meeting.wait(LONG)
+            if finalises:
+                one = LongFinaliser(meeting.wait)
+                del one
+            else:
+                meeting.wait(LONG)
             time.sleep(LONG)
 
     asked = on_every_core(work, 3)
@@ -125,6 +143,7 @@ def test_a_child_that_is_ended_tidies_up(monkeypatch: pytest.MonkeyPatch, tmp_pa
         list(asked)
     assert time.monotonic() - began < cores._GRACE + LONG / 2
     assert list(tmp_path.iterdir()) == [] and not multiprocessing.active_children()
+    assert capfd.readouterr().err == ""
 
 
 def interrupted_after(do: Callable[..., object]) -> Callable[..., object]:
