@@ -162,7 +162,7 @@ def _strongest(state: Search, beside: Sequence[str]) -> Hypothesis:
     tried = [h for h in state.tried if len(h.terms) <= max(len(named), 1) and not set(h.names) <= named]
     if tried:
         return max(tried, key=lambda h: compute_score(base.summary, h.summary))
-    fresh = [s.term for s in state.screened if s.term.effect.name not in named]
+    fresh = [s.term for s in state.alone if s.term.effect.name not in named]
     if not fresh:
         raise InputError(
             "there is nothing to tell apart: this campaign can test no effect of the catalogue against "
@@ -182,7 +182,7 @@ def _partner(state: Search) -> list[Hypothesis]:
 
 
 def _fitted(state: Search, term: Term) -> Hypothesis:
-    start = next((s.values for s in state.screened if s.term.label == term.label), term.effect.typical())
+    start = next((s.values for s in state.alone if s.term.label == term.label), term.effect.typical())
     return polish(refit(state.base, [term], {term.label: start}))
 
 

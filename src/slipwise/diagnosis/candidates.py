@@ -152,3 +152,10 @@ def _on_single_pads(effect: Effect, objective: Objective) -> Iterator[Term]:
 def _alone(effect: Effect, targets: Iterable[str]) -> bool:
     """Return whether a fault shows without the balances of a girder: a gain of one slider's gauges is its friction."""
     return not any(fnmatchcase(t, pattern) for t in targets for pattern in effect.gauges.balance_only)
+
+
+def at_odds(a: Term, b: Term) -> bool:
+    """Return whether two terms cannot be in one hypothesis: one sticks beside a stick or train, or one on a channel."""
+    if a.effect.reverses and b.effect.reverses and ("stick" in a.effect.hooks or "stick" in b.effect.hooks):
+        return True
+    return a.effect.name == b.effect.name and bool(set(a.targets) & set(b.targets))

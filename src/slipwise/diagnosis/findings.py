@@ -6,14 +6,13 @@ import numpy as np
 
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.ablation import without
-from slipwise.diagnosis.gauge_error_shrinkage import shares_that_stay
 from slipwise.diagnosis.hypothesis import Hypothesis, is_at_limit, list_parameters_at_bound
 from slipwise.diagnosis.importance import Importance
 from slipwise.diagnosis.plainer import holds_as_limit
-from slipwise.diagnosis.ranking import has_delay_for_filter
 from slipwise.diagnosis.search_state import Search
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import compute_lead, compute_score
+from slipwise.instruments.delay_or_filter import is_delay, passed
 from slipwise.relations.parameters import Term
 
 #: Nothing is surer than this many standard errors.
@@ -94,7 +93,7 @@ def collect_findings(
         compute_excess_over_noise(final.summary, final.summary),
     )
     sizes = {n: importances[n].share_of_limit(limits) for n in names}
-    stays = shares_that_stay(final, sizes, state.all_screened, limits)
+    stays = {n: state.inclusions[n].stays if n in state.inclusions else 1.0 for n in names}
     out = [
         EffectFinding(
             name=n,
@@ -138,9 +137,16 @@ def _rivals(state: Search, parts: dict[str, tuple[Term, ...]]) -> dict[str, Riva
         others = [h for h in state.tried if name not in h.names and rest < {t.label for t in h.terms}]
         others = [h for h in others if len(h.terms) <= len(best.terms) and len(list_parameters_at_bound(h)) <= ends]
         others = [h for h in others if not holds_as_limit(h, best)]  # that is as good by what it is at a bound
-        if not has_delay_for_filter(best):  # a filter that takes nothing is a delay by another name
-            others = [h for h in others if not has_delay_for_filter(h)]
+        if not _has_delay_for_filter(best):  # a filter that takes nothing is a delay by another name
+            others = [h for h in others if not _has_delay_for_filter(h)]
         rival = max(others, key=lambda h: compute_score(best.summary, h.summary), default=None)
         if rival is not None:
             out[name] = Rival(rival, float(np.clip(compute_lead(best.summary, rival.summary), -_SUREST, _SUREST)))
     return out
+
+
+def _has_delay_for_filter(found: Hypothesis) -> bool:
+    """Return whether a hypothesis has a filter that takes nothing the logger's own let through: a delay by its name."""
+    run = found.objective.run(0)
+    highest = passed(run.filtered, run.dt)
+    return any(is_delay(t.effect, found.values_of(t), highest) for t in found.terms)

@@ -22,12 +22,15 @@ from slipwise.estimation.intervals import Interval
 from slipwise.estimation.objective import Objective
 from slipwise.jobs.parallel import on_every_core
 from slipwise.model import Model
+from slipwise.motion.resample import resample
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import FitRun
+from slipwise.rig.build import largest_step
 from slipwise.simulation.kernel.layout import buffer_memories, pad_memories
 from slipwise.simulation.predict import predictor
-from slipwise.simulation.replay import replay
 from slipwise.simulation.result import Memory
+from slipwise.simulation.simulator import simulate
+from slipwise.simulation.step_check import warn_of_coarse_step
 
 RESPONSES: tuple[str, ...] = ("peak_slip", "energy", "largest_load")
 #: Half width of an interval beside what the size's own interval gives: of the change itself, for a law is not quite the
@@ -138,9 +141,17 @@ def is_replayable(objective: Objective, place: int) -> bool:
     return objective.specimen.free and "table_ax" in objective.run(place).record
 
 
-def compute_answer(model: Model, final: BaseFit, place: int, *, replayed: bool) -> Answer:
-    """Return what a model answers in a run: replayed, or its pads driven with the measured load and motion."""
-    return _replayed(model, final, place) if replayed else _driven(model, final, place)
+def compute_answer(model: Model, final: BaseFit, place: int, *, replayed: bool, rough: bool = False) -> Answer:
+    """Return what a model answers in a run: replayed, or its pads driven with the measured load and motion.
+
+    Args:
+        model: the fitted model, or a change of it.
+        final: the fit.
+        place: of the run.
+        replayed: of a slider, and without the table's motion, a law can only be driven.
+        rough: take twice the usual step where the pads allow it, which changes shares by some hundredths.
+    """
+    return _replayed(model, final, place, rough=rough) if replayed else _driven(model, final, place)
 
 
 def _models(final: BaseFit, added: Mapping[str, Sequence[Term]]) -> dict[str, Model]:
@@ -160,18 +171,16 @@ def _where_most(final: BaseFit, terms: Sequence[Term]) -> int:
     return int(np.argmax(np.nan_to_num(solution.residuals.changes_by_run(there))))
 
 
-def _replayed(model: Model, final: BaseFit, place: int) -> Answer:
+def _replayed(model: Model, final: BaseFit, place: int, *, rough: bool) -> Answer:
     """Replay a run's measured table motion, memory of pads and buffers from the runs before."""
     run = final.objective.run(place)
-    dt = choose_simulation_step(run.dt)
-    answer = replay(
-        model,
-        get_measured_motion(run.states),
-        dt=dt,
-        output_dt=run.dt,
-        start=compute_memory_before(model, final.objective.runs_before(place)),
-        rest=run.rest_before,
-    )
+    dt, motion = choose_simulation_step(run.dt), get_measured_motion(run.states)
+    start, rest = compute_memory_before(model, final.objective.runs_before(place)), run.rest_before
+    if rough and round(run.dt / dt) % 2 == 0 and 2.0 * dt <= largest_step(model.specimen):
+        dt *= 2.0
+    answer = simulate(model, resample(motion, dt).acceleration, dt=dt, output_dt=run.dt, start=start, rest=rest)
+    if not rough:
+        warn_of_coarse_step(model, answer, motion.title)
     responses = {
         "peak_slip": answer.largest_slip,
         "energy": sum(answer.pad_energy.values()),

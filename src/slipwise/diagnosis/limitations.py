@@ -211,11 +211,11 @@ def _gauges_not_tried(state: Search) -> Iterator[tuple[str, str]]:
 
 
 def _without_response(state: Search, project: Callable[[Array], Array], lost: str) -> Iterator[tuple[str, str]]:
-    """Say why nothing came of the candidates that screening saw nothing in; that a sign was wrong is no reason.
+    """Say why nothing came of the candidates that change nothing here beside the base; a wrong sign is no reason.
 
     What changes nothing that was measured may show in balances that were lost, as `_balances_not_judged` says.
     """
-    with_response = {s.term.effect.name for s in state.all_screened}
+    with_response = {s.term.effect.name for s in state.alone}
     reasons: dict[str, set[str]] = {}
     for term in (t for t in state.terms if t.effect.name not in with_response):
         reasons.setdefault(term.effect.name, set()).add(_reason(state.base, term, project, lost))

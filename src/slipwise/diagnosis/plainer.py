@@ -8,31 +8,9 @@ one leaves. At the end itself it is nothing but the plainer one, and is not chos
 from collections.abc import Sequence
 
 from slipwise.diagnosis.hypothesis import Hypothesis, is_at_limit
-from slipwise.diagnosis.initial_guesses import Start
-from slipwise.diagnosis.search_state import Search, tried_before, tried_or_fitted
+from slipwise.diagnosis.search_state import Search, tried_or_fitted
 from slipwise.evidence.acceptance import compute_least_drop, is_kept
 from slipwise.relations.parameters import Term
-
-
-def with_plainer(state: Search, asked: Sequence[Start]) -> list[Start]:
-    """Ask for the plainer effects too that those asked for hold as limits, once each.
-
-    Args:
-        state: of a search.
-        asked: terms and starting values of refits.
-    """
-    out = list(asked)
-    known = {frozenset(t.label for t in terms) for terms, _ in asked}
-    for terms, starts in out:  # grows while it is read: a plainer effect may have one that is plainer still
-        for term in (t for t in terms if t.label in starts):
-            rest = [t for t in terms if t.label != term.label]
-            for plain in _plainer(state, term, rest):
-                labels = frozenset(t.label for t in (*rest, plain))
-                if labels not in known and not tried_before(state, [*rest, plain]):
-                    known.add(labels)
-                    others = {label: values for label, values in starts.items() if label != term.label}
-                    out.append(([*rest, plain], {**others, plain.label: _start(state, plain)}))
-    return out
 
 
 def plainest(state: Search, found: Hypothesis) -> tuple[Search, Hypothesis]:
@@ -69,5 +47,5 @@ def _plainer(state: Search, term: Term, beside: Sequence[Term]) -> list[Term]:
 
 
 def _start(state: Search, term: Term) -> dict[str, float]:
-    seen = (s.values for s in state.screened if s.term.label == term.label)
+    seen = (s.values for s in state.alone if s.term.label == term.label)
     return next(seen, term.effect.typical())

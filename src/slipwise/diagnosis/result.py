@@ -11,7 +11,6 @@ from slipwise.diagnosis.alternatives import find_nearest_family, list_discrimina
 from slipwise.diagnosis.importance import Importance
 from slipwise.diagnosis.ladder import Ladder, make_ladder
 from slipwise.diagnosis.replays import replays
-from slipwise.diagnosis.screening import Screened
 from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import ResidualSurface
 from slipwise.diagnosis.verdict import Verdict
@@ -23,6 +22,7 @@ from slipwise.model import Model
 from slipwise.noise.level import is_at_floor
 from slipwise.preparation.data_corrections import BEFORE_BALANCES, DataCorrection
 from slipwise.record import Record
+from slipwise.selection.explained_alone import ExplainedAlone
 
 SCHEMA = 2
 
@@ -214,7 +214,7 @@ class Diagnosis(Drawn, Tabular):
             "system": {k: _number(v) for k, v in self.system.items()},
             "importance": {name: _importance(found) for name, found in self.importance.items()},
             "candidates": [_candidate(c) for c in self.candidates],
-            "screened": [_screened(s) for s in self.search.screened],
+            "screened": [_screened(s) for s in self.search.alone],
             "leftover": verdict.leftover,
             "unknown": _surface(verdict.surface) if verdict.leftover == "unknown" else None,
             "law": None if self.law is None else dict(self.law),
@@ -277,7 +277,7 @@ def _predicted_friction(found: PredictedFriction) -> dict[str, Any]:
     return {"run": found.run, **{k: _number(v) for k, v in numbers.items()}, "unit": "N"}
 
 
-def _screened(found: Screened) -> dict[str, Any]:
+def _screened(found: ExplainedAlone) -> dict[str, Any]:
     """Write what a candidate could explain alone, in squared residuals, and what the base parameters hide of it."""
     return {
         "effect": found.term.label,

@@ -1,17 +1,18 @@
-"""The state of a forward selection, never changed in place, and the refits that it asks for."""
+"""What a selection has looked at, never changed in place, and the refits that it asks for."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from slipwise.diagnosis.hypothesis import Hypothesis, polish, refit
 from slipwise.diagnosis.jacobian_memory import ROOM, complete_jacobian, drop_jacobian, lightened, size_of
-from slipwise.diagnosis.screening import Screened
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import compute_score
 from slipwise.jobs.parallel import on_every_core
 from slipwise.relations.parameters import Term
+from slipwise.selection.explained_alone import ExplainedAlone
+from slipwise.selection.inclusion import Inclusion
 
 #: Hypotheses of one kind that are fitted to the end.
 _POLISHED = 2
@@ -19,16 +20,16 @@ _POLISHED = 2
 
 @dataclass(frozen=True)
 class Search:
-    """What a forward selection has found so far; each step gives a new one.
+    """What a selection has looked at; each step gives a new one.
 
     Attributes:
         base: the base fit.
         cannot: effects that the campaign cannot test, with the reason.
-        terms: every candidate, those that screening sees nothing in included.
+        terms: every candidate, those that change nothing here included.
         tried: every hypothesis that was refitted.
-        path: base first, then the best hypothesis with one, two ... effects.
-        screened: candidates by their score against the base.
-        wrong_sign: candidates whose strength has the wrong sign where the base's residual is explained best.
+        path: base first, then with one, two ... effects up to the hypothesis at which the selection ended.
+        alone: what each candidate could explain alone, best first; those that change nothing are left out.
+        inclusions: effect -> what the posterior says of it.
         final_refit: the hypothesis at which the search ended, refitted with the noise of its own law; None for the
             base.
     """
@@ -38,8 +39,8 @@ class Search:
     terms: Sequence[Term]
     tried: tuple[Hypothesis, ...]
     path: tuple[Hypothesis, ...]
-    screened: Sequence[Screened] = ()
-    wrong_sign: Sequence[Screened] = ()
+    alone: Sequence[ExplainedAlone] = ()
+    inclusions: Mapping[str, Inclusion] = field(default_factory=dict[str, Inclusion])
     final_refit: Hypothesis | None = None
 
     @property
@@ -48,24 +49,9 @@ class Search:
         return self.final_refit or self.best
 
     @property
-    def all_screened(self) -> list[Screened]:
-        """Every candidate that was screened: one that has the wrong sign alone may help beside another."""
-        return [*self.screened, *self.wrong_sign]
-
-    @property
     def best(self) -> Hypothesis:
         """The hypothesis at which the search ended."""
         return self.path[-1]
-
-    def stepped_to(self, found: Hypothesis) -> "Search":
-        """Return the state after a step to another hypothesis, which has its slopes then."""
-        return replace(self, path=(*_as_tried(self), complete_jacobian(found)))
-
-
-def _as_tried(state: Search) -> list[Hypothesis]:
-    """Return a search's path, all but its beginning with what is still kept of them."""
-    kept = {id(h.summary): h for h in state.tried}
-    return [state.path[0], *(kept.get(id(h.summary), h) for h in state.path[1:])]
 
 
 def try_one(
@@ -135,9 +121,3 @@ def tried_before(state: Search, terms: Sequence[Term]) -> list[Hypothesis]:
     """Return the hypotheses of these terms that were fitted."""
     labels = {t.label for t in terms}
     return [h for h in state.tried if {t.label for t in h.terms} == labels]
-
-
-def as_base(state: Search, found: Hypothesis) -> BaseFit:
-    """Return a hypothesis as the base of what is to be added to it."""
-    found = complete_jacobian(found)
-    return replace(state.base, objective=found.objective, free=found.solution.free, solution=found.solution)

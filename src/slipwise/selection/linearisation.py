@@ -16,6 +16,7 @@ from slipwise.relations.measurement import is_shifting
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import OF_MODEL, CandidateColumn, make_column
+from slipwise.selection.replacing_laws import make_fit_without_law
 from slipwise.selection.statistics import Statistics, compute_statistics
 from slipwise.selection.units import compute_sizes_in_place
 
@@ -79,10 +80,14 @@ def linearise(
     left = fitted = rows.average(stacked)
     keys = [f.key for f in solution.free]
     own: list[CandidateColumn] = []
-    sizes = compute_sizes_in_place(here, found.terms, limits) if found.terms else {}
+    laws = {t.label: make_fit_without_law(base, found, t) for t in found.terms if t.effect.replaces}
+    sizes = compute_sizes_in_place(here, found.terms, laws, limits) if found.terms else {}
     for term in found.terms:
         if sizes[term.label] > 0.0:
-            whole = _whole_effect(here, term, rows, slopes, stacked)
+            if term.label in laws:
+                whole = rows.average(stacked - laws[term.label].solution.residuals.stacked(objective.fitted))
+            else:
+                whole = _whole_effect(here, term, rows, slopes, stacked)
             column = whole / sizes[term.label]
             own.append(make_column(term, OF_MODEL, None, found.values_of(term), 1.0 / sizes[term.label], column))
             left = left - whole

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from slipwise.arrays import Array
 from slipwise.selection.columns import OF_MODEL, CandidateColumn
 from slipwise.selection.sampler import sample_places
-from slipwise.selection.statistics import Statistics
+from slipwise.selection.statistics import Statistics, compute_left_by_base
 
 Ints = NDArray[np.int64]
 
@@ -246,7 +246,7 @@ def _as_posterior(
     shape = len(taken), len(forms.labels)
     size, seen = np.zeros(shape), np.zeros(shape)
     chosen = np.full(shape, -1)
-    rest = _left_by_base(statistics)
+    rest = compute_left_by_base(statistics)
     for f in np.unique(taken[taken >= 0]):
         at = np.flatnonzero((taken == f).any(axis=1))
         members = forms.columns[f, : forms.length[f]]
@@ -257,19 +257,3 @@ def _as_posterior(
         seen[at, t] = np.sqrt(np.maximum(squares.max(axis=1), 0.0))
         chosen[at, t] = forms.number[f]
     return Posterior(forms.labels, forms.effects, size, seen, chosen, sizes, level, gain)
-
-
-def _left_by_base(statistics: Statistics) -> Array:
-    """Return what a fit of the base numbers leaves of the products of columns, (r, K, K), a judged sample each."""
-    base = statistics.base
-    rig = np.flatnonzero(statistics.of_base)
-    whole = statistics.products.sum(axis=0)
-    own = whole[np.ix_(rig, rig)]
-    own = own + np.diag(1e-9 * np.diag(own) + 1e-9)
-    q = np.linalg.solve(own, whole[rig, base:])
-    out = []
-    for product, samples in zip(statistics.products, statistics.samples, strict=True):
-        cross = product[base:][:, rig] @ q
-        left = product[base:, base:] - cross - cross.T + q.T @ product[np.ix_(rig, rig)] @ q
-        out.append(left / max(samples, 1.0))
-    return np.array(out)

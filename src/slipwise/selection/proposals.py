@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.materiality import Materiality
+from slipwise.diagnosis.candidates import at_odds
 from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, refit
 from slipwise.diagnosis.hypothesis_fit import make_fit
 from slipwise.diagnosis.initial_grid import REFERENCES, is_placed, strengths
-from slipwise.diagnosis.pairs import at_odds
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import solve, with_slopes
 from slipwise.relations.parameters import Term
@@ -24,6 +24,7 @@ from slipwise.selection.columns import (
 )
 from slipwise.selection.linearisation import Linearisation, linearise
 from slipwise.selection.posterior import QUICK, Posterior, compute_posterior
+from slipwise.selection.replacing_laws import compute_columns_of_laws, fit_replacing_laws
 from slipwise.selection.statistics import scale_columns
 from slipwise.selection.units import compute_shares_of_sizes, compute_units
 
@@ -31,7 +32,7 @@ from slipwise.selection.units import compute_shares_of_sizes, compute_units
 _LIKELY, _LIMITS, _FLOORS = 0.2, 0.6, 0.5
 #: Likelier than this to be no trifle: its unit is replayed at its own form and size, and its column is taken anew.
 _WORTH_A_REPLAY = 0.05
-_MOST, _ROUNDS = 9, 3
+MOST_EFFECTS, _ROUNDS = 9, 3
 #: Factors by which place or frequency, and width, of a law's best form are moved, one pair after the other [1].
 _FINER = ((1.07, 2.0), (1.035, 2.0), (1.018, 1.4))
 #: A form is looked at more closely where it would explain so much [nats].
@@ -47,10 +48,12 @@ class ProposedModel:
     """What a campaign proposes.
 
     Attributes:
+        origin: at the base model.
         linearisation: the last one.
         posterior: over what is in its model and beside it.
     """
 
+    origin: Linearisation
     linearisation: Linearisation
     posterior: Posterior
 
@@ -68,14 +71,15 @@ def propose(base: BaseFit, terms: Sequence[Term], limits: Materiality) -> Propos
         terms: candidates.
         limits: what matters.
     """
-    terms = [t for t in terms if not t.effect.replaces]
     rows = make_averaged_rows(base.objective)
     origin = make_base_hypothesis(base)
-    raw = compute_raw_columns(base, list_forms(terms), rows)
+    laws = fit_replacing_laws(base, terms)
+    raw = [*compute_raw_columns(base, list_forms(terms), rows), *compute_columns_of_laws(base, laws, rows)]
     most = _find_runs_of_most(raw, rows)
-    units = compute_units(base, terms, limits, most)
+    units = compute_units(base, terms, laws, limits, most)
     here = linearise(base, origin, rows, _in_units(raw, units, rows), limits)
     here, posterior = _weighed(base, terms, here, limits, most)
+    first = here
     for _ in range(_ROUNDS):
         starts = list_likely(here, terms, posterior)
         if set(starts) == {t.label for t in here.hypothesis.terms}:
@@ -83,7 +87,7 @@ def propose(base: BaseFit, terms: Sequence[Term], limits: Materiality) -> Propos
         found = _refitted(base, [t for t in terms if t.label in starts], starts) if starts else origin
         here = _linearised_again(base, here, found, terms, units, posterior, limits)
         here, posterior = _weighed(base, terms, here, limits, most)
-    return ProposedModel(here, posterior)
+    return ProposedModel(first, here, posterior)
 
 
 def _refitted(base: BaseFit, terms: Sequence[Term], starts: Mapping[str, Mapping[str, float]]) -> Hypothesis:
@@ -211,7 +215,7 @@ def _worth_a_replay(
         forms = posterior.forms[:, t]
         for form in np.unique(forms[forms >= 0]):
             at = forms == form
-            if np.mean(at) < _WORTH_A_REPLAY:
+            if np.mean(at) < _WORTH_A_REPLAY or of[label].effect.replaces:  # the size of such a law is that of its fit
                 continue
             values = _values_at(here, posterior, of[label], int(form), at)
             out[label, int(form)] = values, float(np.mean(posterior.sizes[at, t]))
@@ -231,7 +235,7 @@ def _values_at(
         ends = {p.name: float(p.neutral or 0.0) for p in strengths(effect)}
         return values | {name: end + share * (values[name] - end) for name, end in ends.items()}
     values |= {p.name: float(p.neutral or 0.0) for p in strengths(effect)}
-    for i in members:
+    for i in (i for i in members if here.columns[i].strength):
         c = here.columns[i]
         p = effect.parameter(c.strength)
         values[c.strength] = float(np.clip(c.neutral + posterior.strengths[at, i].mean() * c.unit, p.low, p.high))
@@ -248,7 +252,11 @@ def _linearised_again(
     present = {t.label for t in found.terms}
     beside = [t for t in terms if t.label not in present and not any(at_odds(t, p) for p in found.terms)]
     were = {c.label for c in before.beside}
-    anew = [t for t in beside if chance.get(t.label, 0.0) > _WORTH_A_REPLAY or t.label not in were]
+    anew = [
+        t
+        for t in beside
+        if not t.effect.replaces and (chance.get(t.label, 0.0) > _WORTH_A_REPLAY or t.label not in were)
+    ]
     stays = {t.label for t in beside} - {t.label for t in anew}
     noise = (before.rows.sigma / rows.sigma).astype(np.float32)
     kept = [replace(c, column=c.column * noise) for c in before.columns if c.label in stays]
@@ -288,7 +296,7 @@ def list_likely(
     of = {t.label: t for t in terms}
     chance = np.mean((posterior.sizes > _LIMITS) & (posterior.seen > _FLOORS), axis=0)
     out: dict[str, dict[str, float]] = {}
-    for t in np.argsort(-chance)[:_MOST]:
+    for t in np.argsort(-chance)[:MOST_EFFECTS]:
         if chance[t] < least or chance[t] == 0.0:
             break
         forms = posterior.forms[:, t]

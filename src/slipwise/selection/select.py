@@ -1,60 +1,116 @@
-"""From a prepared campaign to a selection: what the posterior proposes is refitted, and judged as a search is."""
+"""From a prepared campaign to a selection: what the posterior proposes is refitted, and so is what may stand for it."""
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from slipwise.diagnosis.candidates import list_candidates
 from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, polish, refit, refit_for_report
 from slipwise.diagnosis.jacobian_memory import complete_jacobian
-from slipwise.diagnosis.search_state import Search, try_one
-from slipwise.diagnosis.selection import SelectionResult
+from slipwise.diagnosis.plainer import plainest
+from slipwise.diagnosis.search_state import Search, try_all, try_one
 from slipwise.effects import Effect
+from slipwise.estimation.base_fit import BaseFit
 from slipwise.model import Model
 from slipwise.preparation.prepared import Prepared, fit_prepared
 from slipwise.relations.parameters import Term
+from slipwise.selection.explained_alone import ExplainedAlone, explain_by_statistics
+from slipwise.selection.inclusion import Inclusion, compute_inclusions
 from slipwise.selection.proposals import ProposedModel, list_likely, propose
 
 #: A term that takes another's place in so large a share of the posterior is refitted in its place [1].
 _RIVALS = 0.1
+#: Candidates that are refitted alone where nothing is likely: what comes nearest.
+_NEAREST = 2
 
 
-def select_by_posterior(
+@dataclass(frozen=True)
+class SelectionResult:
+    """A campaign of which it was asked what is missing.
+
+    Attributes:
+        prepared: the campaign.
+        base: the base fit.
+        search: what was looked at.
+    """
+
+    prepared: Prepared
+    base: BaseFit
+    search: Search
+
+
+def select_effects(
     prepared: Prepared,
     model: Model | None = None,
     own: Iterable[Effect] = (),
     progress: Callable[[str, float], None] | None = None,
 ) -> SelectionResult:
-    """Find what a model lacks; arguments, answer and errors as of `diagnosis.selection.select_effects`."""
+    """Find what a model lacks.
+
+    Args:
+        prepared: the campaign.
+        model: where to start; the paper's law on the campaign's rig when not given.
+        own: effects beside those of the catalogue.
+        progress: called with what is being done and the share done.
+
+    Raises:
+        InputError: the campaign lacks what every fit needs.
+    """
     tell = progress or (lambda what, share: None)
     base = fit_prepared(prepared, model)
     candidates, cannot = list_candidates(base, tuple(own))
     tell("holding everything against the residual", 0.15)
     proposal = propose(base, candidates, prepared.recorded.materiality)
     origin = make_base_hypothesis(base)
-    state = Search(base, cannot, candidates, (), (origin,))
-    terms = [t for t in candidates if not t.effect.replaces]
-    starts = list_likely(proposal.linearisation, terms, proposal.posterior)
+    alone = _explain_alone(proposal, candidates)
+    state = Search(base, cannot, candidates, (), (origin,), alone, _inclusions(proposal))
+    starts = list_likely(proposal.linearisation, candidates, proposal.posterior)
+    tell("refitting", 0.7)
     if starts:
-        tell("refitting", 0.7)
-        chosen = [t for t in terms if t.label in starts]
+        chosen = [t for t in candidates if t.label in starts]
         before = proposal.hypothesis
         contained = bool(before.terms) and {t.label for t in before.terms} <= starts.keys()
         found = polish(refit(base, chosen, starts, before if contained else None))
-        state = replace(state, tried=(found,), path=(origin, complete_jacobian(found)))
-        state = _with_rivals(state, proposal, terms, found)
+        state = replace(state, tried=(found,))
+        state, found = plainest(state, found)
+        state = _with_rivals(state, proposal, candidates, found)
         tell("weighing", 0.95)
+        state, steps = _climb(state, found)
+        state = replace(state, path=(origin, *steps, complete_jacobian(found)))
         state = replace(state, final_refit=complete_jacobian(refit_for_report(found)))
+    else:
+        nearest = [a for a in alone if a.gain > 0.0][:_NEAREST]
+        state, _ = try_all(state, [([a.term], {a.term.label: a.values}) for a in nearest])
     tell("done", 1.0)
     return SelectionResult(prepared, base, state)
+
+
+def _explain_alone(proposal: ProposedModel, candidates: Sequence[Term]) -> list[ExplainedAlone]:
+    first = proposal.origin
+    return explain_by_statistics(first.statistics, first.columns, candidates)
+
+
+def _inclusions(proposal: ProposedModel) -> dict[str, Inclusion]:
+    fitted: dict[str, float] = {}
+    for c in proposal.linearisation.own:
+        fitted[c.effect] = max(fitted.get(c.effect, 0.0), 1.0 / c.unit)
+    return compute_inclusions(proposal.posterior, fitted)
+
+
+def _climb(state: Search, found: Hypothesis) -> tuple[Search, list[Hypothesis]]:
+    """Refit a model's terms one more at a time, first what shows most, up to all but the last."""
+    seen = {name: of.seen for name, of in state.inclusions.items()}
+    order = sorted(found.terms, key=lambda t: -seen.get(t.effect.name, 0.0))
+    state, steps = try_all(state, [(order[:k], {}) for k in range(1, len(order))], found)
+    return state, sorted(steps, key=lambda h: len(h.terms))
 
 
 def _with_rivals(state: Search, proposal: ProposedModel, terms: Sequence[Term], found: Hypothesis) -> Search:
     """Refit what stands in the place of a term where the posterior is without it."""
     posterior, here = proposal.posterior, {t.label for t in found.terms}
     of = {t.label: t for t in terms}
-    for term in found.terms:
+    for term in (t for t in found.terms if t.label in posterior.labels):
         absent = posterior.sizes[:, posterior.labels.index(term.label)] == 0.0
         if np.mean(absent) < _RIVALS:
             continue

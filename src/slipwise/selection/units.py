@@ -10,6 +10,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from slipwise.campaign.materiality import Materiality
+from slipwise.diagnosis.hypothesis import Hypothesis
+from slipwise.diagnosis.hypothesis_fit import make_fit
 from slipwise.diagnosis.importance import (
     Answer,
     build_answering_model,
@@ -29,20 +31,23 @@ from slipwise.relations.parameters import Term
 
 
 def compute_units(
-    base: BaseFit, terms: Sequence[Term], limits: Materiality, most: Mapping[str, int]
+    base: BaseFit, terms: Sequence[Term], laws: Sequence[Hypothesis], limits: Materiality, most: Mapping[str, int]
 ) -> dict[tuple[str, str], float]:
     """Return (label, strength) -> share of the limit that the small strength of its column changes [1].
 
     Args:
         base: the fit from which the candidates depart.
         terms: candidates.
+        laws: fits with a law that takes another's place, of `fit_replacing_laws`: all of it has the strength "".
         limits: what matters.
         most: label -> place of a run in which the candidate does more than in the last one, if any.
     """
     moved = [(term, p) for term in terms for p in strengths(term.effect)]
     sizes = [(term, small(term.effect, shapes(term.effect)[0], p)) for term, p in moved]
     shares = compute_shares_of_sizes(base, sizes, limits, most)
-    return {(term.label, p.name): share for (term, p), share in zip(moved, shares, strict=True)}
+    found = {(term.label, p.name): share for (term, p), share in zip(moved, shares, strict=True)}
+    whole = _compute_shares_of_laws(base, [make_fit(base, h, with_slopes=False) for h in laws], limits)
+    return found | {(h.terms[0].label, ""): share for h, share in zip(laws, whole, strict=True)}
 
 
 def compute_shares_of_sizes(
@@ -70,12 +75,15 @@ def compute_shares_of_sizes(
     return list(on_every_core(share, len(asked)))
 
 
-def compute_sizes_in_place(here: BaseFit, terms: Sequence[Term], limits: Materiality) -> dict[str, float]:
+def compute_sizes_in_place(
+    here: BaseFit, terms: Sequence[Term], laws: Mapping[str, BaseFit], limits: Materiality
+) -> dict[str, float]:
     """Return the label of each term of a model -> what leaving it out changes, as a share of what matters [1].
 
     Args:
         here: a fit with the terms.
         terms: of the model.
+        laws: label of a term that takes another's place -> the fit with that other one.
         limits: what matters.
     """
     values, places = here.solution.values, list(dict.fromkeys([choose_shown(here), here.objective.fitted[0]]))
@@ -84,6 +92,8 @@ def compute_sizes_in_place(here: BaseFit, terms: Sequence[Term], limits: Materia
 
     def size(k: int) -> float:
         term = terms[k]
+        if term.label in laws:
+            return _largest_share(here, build_answering_model(laws[term.label]), bare, places, limits)
         if term.effect.port == "gauge":
             own = {n: values[f"{term.label}.{n}"] for n in term.effect.parameter_names}
             return _share_of_gauge(here, term, own, limits)
@@ -92,8 +102,18 @@ def compute_sizes_in_place(here: BaseFit, terms: Sequence[Term], limits: Materia
     return {t.label: x for t, x in zip(terms, on_every_core(size, len(terms)), strict=True)}
 
 
+def _compute_shares_of_laws(base: BaseFit, fits: Sequence[BaseFit], limits: Materiality) -> list[float]:
+    """Return what each fit with a law that takes another's place changes against the base fit [limits]."""
+    if not fits:
+        return []
+    place = choose_shown(base)
+    bare = {place: _answer(build_answering_model(base), base, place)}
+    models = [build_answering_model(fit) for fit in fits]
+    return list(on_every_core(lambda k: _largest_share(base, models[k], bare, [place], limits), len(fits)))
+
+
 def _answer(model: Model, here: BaseFit, place: int) -> Answer:
-    return compute_answer(model, here, place, replayed=is_replayable(here.objective, place))
+    return compute_answer(model, here, place, replayed=is_replayable(here.objective, place), rough=True)
 
 
 def _having(model: Model, term: Term, values: Mapping[str, float]) -> Model:
@@ -116,12 +136,10 @@ def _largest_share(
             there = _answer(model, here, place)
         except (SlipwiseError, FloatingPointError):
             return 0.0
-        record, without = here.objective.run(place).record, bare[place]
-        shares += [
-            compute_share_of_channel(there.channels[c] - without.channels[c], record[c]) / limits.channel
-            for c in there.channels
-            if c in record and c in without.channels
-        ]
+        run, without = here.objective.run(place), bare[place]
+        for c in (c for c in there.channels if c in run.record and c in without.channels):
+            change = there.channels[c] - without.channels[c]
+            shares.append(compute_share_of_channel(change, run.record[c]) / limits.channel)
         if number == 0:
             sizes = {r: size for r, size in without.responses.items() if size > 0.0}
             shares += [abs(there.responses[r] / size - 1.0) / limits.response for r, size in sizes.items()]

@@ -1,13 +1,13 @@
-"""Hold the posterior against the search: both diagnose the same campaigns of the families, and are scored alike.
+"""Diagnose the campaigns of the families, score every verdict, and keep the evidence on which it rests.
 
     python scripts/16_families.py --out out/families --count 3
-    python scripts/17_engines.py --out out/families
-    python scripts/17_engines.py --out out/families --engines posterior --only dirty gains
-    python scripts/17_engines.py --quick
+    python scripts/17_verdicts.py --out out/families
+    python scripts/17_verdicts.py --out out/families --only dirty gains
+    python scripts/17_verdicts.py --quick
 
-Every verdict is one line of OUT/verdicts.jsonl, and the same command goes on where it stopped; a line goes once a file
-that the engine imports has changed and `--anew` is given. Printed are, by family and for all together: right, something
-absent named, material effects missed, and the median of the seconds. `tests/bench/family_score.py` says what is right.
+Every verdict is one line of OUT/verdicts.jsonl, and the same command goes on where it stopped; `--anew` begins again.
+Printed are, by family and for all together: right, something absent named, material effects missed, and the median of
+the seconds. `tests/bench/family_score.py` says what is right. `scripts/calibrate.py` takes the evidence.
 """
 
 import argparse
@@ -15,30 +15,30 @@ import json
 import sys
 import time
 from collections import defaultdict
-from collections.abc import Callable
+from collections.abc import Mapping
 from pathlib import Path
 from statistics import median
 from typing import Any
 
 from slipwise.diagnosis.diagnose import diagnose
-from slipwise.diagnosis.selection import SelectionResult, select_effects
+from slipwise.diagnosis.verdict import evidence_of, evidence_of_rest
 from slipwise.errors import SlipwiseError
-from slipwise.selection.select import select_by_posterior
 
 TESTS = Path(__file__).parents[1] / "tests"
-ENGINES: dict[str, Callable[..., SelectionResult]] = {"search": select_effects, "posterior": select_by_posterior}
 #: What `--quick` diagnoses: single sliders take seconds.
 QUICKEST = ("springs_and_walls",)
 
 
-def verdict_of(folder: Path, engine: str) -> dict[str, Any]:
-    """Give what an engine says of a campaign; "failed" where it raises what a user would see as an error."""
+def verdict_of(folder: Path) -> dict[str, Any]:
+    """Give what is said of a campaign and why; "failed" where a user would see an error."""
     began = time.perf_counter()
     try:
-        found = diagnose(folder, select=ENGINES[engine])
+        found = diagnose(folder)
     except SlipwiseError as error:
         return {"verdict": "failed", "words": str(error), "seconds": time.perf_counter() - began}
-    said = found.verdict
+    said, state = found.verdict, found.search
+    surface = said.surface
+    rest = evidence_of_rest(state.path[0], state.final, surface)
     return {
         "verdict": said.kind,
         "effects": list(said.effects),
@@ -47,25 +47,33 @@ def verdict_of(folder: Path, engine: str) -> dict[str, Any]:
         "probability": round(said.probability, 3),
         "base_error": float(f"{found.base_error:.4g}"),
         "final_error": float(f"{found.final_error:.4g}"),
-        "findings": {
-            f.name: {"lead": round(f.lead, 2), "share": round(f.share, 3), "limits": round(f.material, 2)}
-            for f in said.findings
-        },
+        "evidence": {f.name: rounded(evidence_of(f)) for f in said.findings},
+        "at_limit": [f.name for f in said.findings if f.at_limit],
+        "posterior": {n: rounded(vars(of)) for n, of in state.inclusions.items() if of.present > 0.02},
+        "rest": rounded(rest),
+        "rest_of_base": rounded(evidence_of_rest(state.path[0], state.path[0], None)),
+        "held_out": bool(state.base.objective.held_out),
+        "errors": [float(f"{e:.4g}") for e in (found.base_error, found.final_error)],
         "seconds": round(time.perf_counter() - began, 1),
     }
 
 
+def rounded(numbers: Mapping[str, float]) -> dict[str, float]:
+    """Give numbers with four figures."""
+    return {name: float(f"{value:.4g}") for name, value in numbers.items()}
+
+
 def table(rows: list[dict[str, Any]]) -> list[str]:
-    """Give lines: engine and family, right, with something absent, with something missed, seconds."""
-    groups: dict[tuple[str, str], list[dict[str, Any]]] = defaultdict(list)
+    """Give lines: family, right, with something absent, with something missed, seconds."""
+    groups: dict[str, list[dict[str, Any]]] = defaultdict(list)
     for row in rows:
-        groups[row["engine"], row["family"]].append(row)
-        groups[row["engine"], "all"].append(row)
+        groups[row["family"]].append(row)
+        groups["all"].append(row)
     return [
-        f"{engine:10s} {family:26s} {sum(r['right'] for r in here):3d} of {len(here):3d} right, "
+        f"{family:26s} {sum(r['right'] for r in here):3d} of {len(here):3d} right, "
         f"{sum(bool(r['accused']) for r in here):3d} name something absent, {sum(bool(r['missed']) for r in here):3d} "
         f"miss something, median {median(r['seconds'] for r in here):.0f} s"
-        for (engine, family), here in sorted(groups.items())
+        for family, here in sorted(groups.items())
     ]
 
 
@@ -73,7 +81,6 @@ def main() -> None:
     """Diagnose what is missing, and score all."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=Path, default=Path("out/families"))
-    parser.add_argument("--engines", nargs="*", choices=list(ENGINES), default=list(ENGINES))
     parser.add_argument("--only", nargs="*", default=[""], help="campaigns whose names begin so")
     parser.add_argument("--anew", action="store_true", help="diagnose again what was diagnosed")
     parser.add_argument("--quick", action="store_true", help="make and diagnose one campaign")
@@ -93,18 +100,17 @@ def main() -> None:
     if chosen.anew:
         path.unlink(missing_ok=True)
     lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
-    rows = {(row["name"], row["engine"]): row for row in map(json.loads, lines)}
-    with path.open("a", encoding="utf-8") as stream:  # two engines may write side by side
+    rows = {row["name"]: row for row in map(json.loads, lines)}
+    with path.open("a", encoding="utf-8") as stream:  # two of these may write side by side
         for name, answer in answers.items():
-            for engine in chosen.engines:
-                if (name, engine) in rows or not name.startswith(tuple(chosen.only)):
-                    continue
-                said = verdict_of(chosen.out / "campaigns" / name, engine)
-                wrong = {"accused": sorted(accused(answer, said)), "missed": sorted(missed(answer, said))}
-                row = {"name": name, "engine": engine, "family": answer["family"], "right": right(answer, said)}
-                rows[name, engine] = {**row, **said, **wrong, "missing": answer["missing"]}
-                print(json.dumps(rows[name, engine]), file=stream, flush=True)
-                print(f"{name} {engine}: {'right' if row['right'] else f'wrong {wrong}'}", flush=True)
+            if name in rows or not name.startswith(tuple(chosen.only)):
+                continue
+            said = verdict_of(chosen.out / "campaigns" / name)
+            wrong = {"accused": sorted(accused(answer, said)), "missed": sorted(missed(answer, said))}
+            row = {"name": name, "family": answer["family"], "right": right(answer, said)}
+            rows[name] = {**row, **said, **wrong, "missing": answer["missing"]}
+            print(json.dumps(rows[name]), file=stream, flush=True)
+            print(f"{name}: {'right' if row['right'] else f'wrong {wrong}'}", flush=True)
     print("\n".join(table(list(rows.values()))))
 
 
