@@ -6,7 +6,6 @@ import numpy as np
 
 from slipwise.arrays import Array
 from slipwise.diagnosis.initial_grid import strengths
-from slipwise.diagnosis.row_subset import on_screen
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
@@ -35,11 +34,6 @@ def typical(effect: Effect, moved: Parameter) -> float:
         if p.unit == moved.unit and p.typical != p.neutral:
             return p.typical
     return float(moved.neutral or 0.0) + 0.2 * (moved.high - float(moved.neutral or 0.0))
-
-
-def compute_column(base: BaseFit, term: Term, moved: Parameter, values: dict[str, float], left: Array) -> Array | None:
-    """Return the change of the screened residual by one strength, see `compute_change`; None where it has none."""
-    return compute_change(lambda v: compute_residual_with(base, term, v), term, moved, values, left)
 
 
 def compute_change(
@@ -71,23 +65,6 @@ def compute_change(
         other = residual_with({**values, moved.name: back})
         return None if other is None else 0.5 * (there - other)
     return there - left
-
-
-def compute_residual_with(
-    base: BaseFit, term: Term, values: Mapping[str, float], moved: Mapping[str, float] | None = None
-) -> Array | None:
-    """Return the screened residual of the fitted runs with a candidate; None where it cannot be evaluated.
-
-    Args:
-        base: the base fit.
-        term: the candidate.
-        values: of its parameters.
-        moved: base parameters that are not as the base fit left them.
-    """
-    keyed = {f"{term.label}.{k}": v for k, v in values.items()}
-    objective = base.objective.adding(term)
-    stacked = evaluate_stacked(objective, {**base.solution.values, **(moved or {}), **keyed})
-    return None if stacked is None else _finite(on_screen(objective, stacked))
 
 
 def compute_stacked_with(base: BaseFit, term: Term, values: Mapping[str, float]) -> Array | None:

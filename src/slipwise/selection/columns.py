@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from slipwise.arrays import Array
 from slipwise.diagnosis.initial_grid import shapes, strengths, two_sided
-from slipwise.diagnosis.sensitivities import compute_change, compute_stacked_with, small
+from slipwise.diagnosis.sensitivities import compute_change, compute_stacked_with, small, typical
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.jobs.parallel import on_every_core
 from slipwise.params import Parameter
@@ -22,6 +22,8 @@ from slipwise.selection.averaged_rows import AveragedRows
 FloatArray = NDArray[np.float32]
 
 
+#: Multiples of the typical strength at which a candidate is tried whose effect is far from a straight line.
+FULL_SIZES: tuple[float, ...] = (-4.0, -1.0, 1.0, 4.0)
 #: Number of the form of an effect that is in the model: its constants are those of the fit.
 OF_MODEL = -2
 
@@ -77,16 +79,39 @@ class CandidateForm:
         term: the candidate.
         number: of the form among the candidate's.
         shape: values of its constants.
+        size: at which its columns are taken [typical strength]; 0 for a small one, from which a straight line goes on.
     """
 
     term: Term
     number: int
     shape: Mapping[str, float]
+    size: float = 0.0
 
 
-def list_forms(terms: Sequence[Term]) -> list[CandidateForm]:
-    """Return the forms of candidates that are tried first."""
-    return [CandidateForm(t, number, shape) for t in terms for number, shape in enumerate(shapes(t.effect))]
+def list_forms(base: BaseFit, terms: Sequence[Term], *, late: bool = False) -> list[CandidateForm]:
+    """Return the forms of candidates that are tried first.
+
+    A girder that friction holds until its buffers are unlike enough does not turn where they are nearly alike, and a
+    gauge that lags by a third of a period changes little or the opposite of what a small lag does: such candidates are
+    tried at full size too.
+
+    Args:
+        base: the fit from which the candidates depart.
+        terms: candidates.
+        late: gauges' lags too; else these are tried so once they explain something.
+    """
+    out = [CandidateForm(t, number, shape) for t in terms for number, shape in enumerate(shapes(t.effect))]
+    for term in terms:
+        turns = base.objective.adding(term).makes_yaw != base.objective.makes_yaw and len(shapes(term.effect)) == 1
+        if turns or (late and is_lag(term)):
+            most = sum(form.term is term for form in out)
+            out += [CandidateForm(term, most + k, shapes(term.effect)[0], size) for k, size in enumerate(FULL_SIZES)]
+    return out
+
+
+def is_lag(term: Term) -> bool:
+    """Return whether a candidate shifts gauges in time."""
+    return term.effect.port == "gauge" and any(p.unit == "s" for p in strengths(term.effect))
 
 
 def compute_raw_columns(base: BaseFit, forms: Sequence[CandidateForm], rows: AveragedRows) -> list[CandidateColumn]:
@@ -123,9 +148,17 @@ def _columns_of(
         left = bare
     for form in forms:
         for moved in strengths(term.effect):
+            off = float(moved.neutral or 0.0)
             values = small(term.effect, form.shape, moved)
-            step = values[moved.name] - float(moved.neutral or 0.0)
-            change = compute_change(lambda v: compute_stacked_with(base, term, v), term, moved, values, left)
+            if form.size:
+                values[moved.name] = off + form.size * (typical(term.effect, moved) - off)
+                if not moved.low <= values[moved.name] <= moved.high:
+                    continue
+                there = compute_stacked_with(base, term, values)
+                change = None if there is None else there - left
+            else:
+                change = compute_change(lambda v: compute_stacked_with(base, term, v), term, moved, values, left)
+            step = values[moved.name] - off
             if change is not None and np.any(change):
                 out.append((form.number, moved.name, values, step, rows.average(change).astype(np.float32)))
     return out

@@ -11,10 +11,10 @@ import numpy as np
 
 from slipwise.arrays import Array
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.evidence.acceptance import compute_least_drop
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import make_averaged_rows
 from slipwise.selection.columns import CandidateColumn, compute_raw_columns, list_forms
+from slipwise.selection.inclusion import SEEN
 from slipwise.selection.replacing_laws import compute_columns_of_laws, fit_replacing_laws
 from slipwise.selection.statistics import Statistics, compute_left_by_base, compute_statistics
 
@@ -31,7 +31,7 @@ class ExplainedAlone:
         values: of its parameters where it explains most.
         gain: drop of the squared residual of the fitted runs [noise variance]; 0 where its strength has the wrong sign.
         absorbed: part of the candidate's own effect that base numbers could mimic [1].
-        least: least size of one of its strengths that would have been kept; NaN where none would [unit].
+        least: least size of one of its strengths that a relation would show, see `inclusion.SEEN`; NaN for none [unit].
         unit: of that size.
     """
 
@@ -52,7 +52,10 @@ def explain_alone(base: BaseFit, terms: Sequence[Term]) -> list[ExplainedAlone]:
     """
     rows = make_averaged_rows(base.objective)
     laws = fit_replacing_laws(base, terms)
-    columns = [*compute_raw_columns(base, list_forms(terms), rows), *compute_columns_of_laws(base, laws, rows)]
+    columns = [
+        *compute_raw_columns(base, list_forms(base, terms, late=True), rows),
+        *compute_columns_of_laws(base, laws, rows),
+    ]
     slopes = rows.average(base.solution.inside)
     left = rows.average(base.solution.residuals.stacked(base.objective.fitted))
     statistics = compute_statistics(rows, left, left, slopes, np.ones(slopes.shape[1], bool), columns)
@@ -85,14 +88,14 @@ def explain_by_statistics(
     out: list[ExplainedAlone] = []
     for term in (t for t in terms if t.label in members):
         found = [_fit_form(term, [columns[i] for i in of], of, whole, pull, raw) for of in members[term.label].values()]
-        best = max(found, key=lambda f: f[1])
-        least, unit = _least(term, columns, members[term.label], left)
-        out.append(ExplainedAlone(term, *best, least, unit))
+        number = max(range(len(found)), key=lambda k: found[k][1])
+        least, unit = _least(term, columns, [*members[term.label].values()][number], left)
+        out.append(ExplainedAlone(term, *found[number], least, unit))
     return sorted(out, key=lambda s: -s.gain)
 
 
 def list_least_sizes(found: Sequence[ExplainedAlone]) -> dict[str, tuple[float, str]]:
-    """Return effect -> the smallest size that would have been kept, and its unit; on many gauges the smallest counts.
+    """Return effect -> the smallest size that would have been seen, and its unit; on many gauges the smallest counts.
 
     Args:
         found: candidates.
@@ -130,18 +133,15 @@ def _fit_form(
     return values, max(gain, 0.0), float(np.clip(1.0 - clean / every, 0.0, 1.0))
 
 
-def _least(
-    term: Term, columns: Sequence[CandidateColumn], forms: dict[int, list[int]], left: Array
-) -> tuple[float, str]:
-    """Return the least strength that lowers a relation by what is kept, the one smallest beside typical; its unit."""
-    drop = compute_least_drop([term])
+def _least(term: Term, columns: Sequence[CandidateColumn], form: Sequence[int], left: Array) -> tuple[float, str]:
+    """Return the least strength of which a relation shows `SEEN` floors, the one smallest beside typical; its unit."""
     best, out = np.inf, (float("nan"), "")
-    for i in forms[min(forms)]:
+    for i in form:
         c, seen = columns[i], float(left[:, i, i].max())
         if not c.strength or seen <= 0.0:
             continue
         p = term.effect.parameter(c.strength)
-        size = abs(c.unit) * float(np.sqrt(drop / seen))
+        size = abs(c.unit) * SEEN / float(np.sqrt(seen))
         usual = abs(p.typical - c.neutral) or 1.0
         if size / usual < best:
             best, out = size / usual, (size, p.unit)

@@ -11,15 +11,18 @@ from slipwise.diagnosis.candidates import at_odds
 from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, refit
 from slipwise.diagnosis.hypothesis_fit import make_fit
 from slipwise.diagnosis.initial_grid import REFERENCES, is_placed, strengths
+from slipwise.diagnosis.sensitivities import typical
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import solve, with_slopes
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows, make_averaged_rows
 from slipwise.selection.columns import (
+    FULL_SIZES,
     OF_MODEL,
     CandidateColumn,
     CandidateForm,
     compute_raw_columns,
+    is_lag,
     list_forms,
 )
 from slipwise.selection.linearisation import Linearisation, linearise
@@ -74,7 +77,7 @@ def propose(base: BaseFit, terms: Sequence[Term], limits: Materiality) -> Propos
     rows = make_averaged_rows(base.objective)
     origin = make_base_hypothesis(base)
     laws = fit_replacing_laws(base, terms)
-    raw = [*compute_raw_columns(base, list_forms(terms), rows), *compute_columns_of_laws(base, laws, rows)]
+    raw = [*compute_raw_columns(base, list_forms(base, terms), rows), *compute_columns_of_laws(base, laws, rows)]
     most = _find_runs_of_most(raw, rows)
     units = compute_units(base, terms, laws, limits, most)
     here = linearise(base, origin, rows, _in_units(raw, units, rows), limits)
@@ -154,7 +157,9 @@ def _find_runs_of_most(raw: Sequence[CandidateColumn], rows: AveragedRows) -> di
 def _closer_forms(
     here: Linearisation, of: Mapping[str, Term], posterior: Posterior, finer: tuple[float, float]
 ) -> list[CandidateForm]:
-    """Return forms about the best one of every law that acts at a place or a frequency: from afar it is hardly seen.
+    """Return forms about the best one of every law that acts at a place or a frequency, and of every lag of a gauge.
+
+    From afar a place or a frequency is hardly seen, and a lag is no straight line.
 
     Args:
         here: a linearisation.
@@ -165,7 +170,7 @@ def _closer_forms(
     out: list[CandidateForm] = []
     for label, term in of.items():
         members = [i for i, c in enumerate(here.columns) if c.label == label and c.form != OF_MODEL]
-        if not is_placed(term.effect) or not members:
+        if not members or not (is_placed(term.effect) or is_lag(term)):
             continue
         top = max(members, key=lambda i: posterior.gain[i])
         if posterior.gain[top] < _WORTH_A_LOOK:
@@ -174,6 +179,11 @@ def _closer_forms(
         number = max(here.columns[i].form for i in members)
         constants = {p.name: p for p in term.effect.parameters if p.neutral is None}
         centre = {name: best.values[name] for name in constants}
+        if is_lag(term):
+            size = _size_of(term, best)
+            sizes = FULL_SIZES if abs(size) < 1.0 else (size / finer[1], size * finer[1])
+            out += [CandidateForm(term, number + k, centre, x) for k, x in enumerate(sizes, 1)]
+            continue
         for name, p in constants.items():
             if p.whole or name in REFERENCES:
                 continue
@@ -183,6 +193,12 @@ def _closer_forms(
                     number += 1
                     out.append(CandidateForm(term, number, {**centre, name: value}))
     return out
+
+
+def _size_of(term: Term, column: CandidateColumn) -> float:
+    """Return the strength at which a column was taken [typical strength]."""
+    p = term.effect.parameter(column.strength)
+    return (column.values[p.name] - column.neutral) / (typical(term.effect, p) - column.neutral)
 
 
 def _like_neighbours(
@@ -260,7 +276,8 @@ def _linearised_again(
     stays = {t.label for t in beside} - {t.label for t in anew}
     noise = (before.rows.sigma / rows.sigma).astype(np.float32)
     kept = [replace(c, column=c.column * noise) for c in before.columns if c.label in stays]
-    raw = compute_raw_columns(make_fit(base, found, with_slopes=False), list_forms(anew), rows)
+    fit = make_fit(base, found, with_slopes=False)
+    raw = compute_raw_columns(fit, list_forms(fit, anew), rows)
     return linearise(base, found, rows, [*kept, *_in_units(raw, units, rows)], limits)
 
 

@@ -7,11 +7,13 @@ import numpy as np
 
 from slipwise.diagnosis.candidates import list_candidates
 from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, polish, refit, refit_for_report
+from slipwise.diagnosis.initial_grid import variants
 from slipwise.diagnosis.jacobian_memory import complete_jacobian
 from slipwise.diagnosis.plainer import plainest
 from slipwise.diagnosis.search_state import Search, try_all, try_one
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit
+from slipwise.evidence.score import compute_score
 from slipwise.model import Model
 from slipwise.preparation.prepared import Prepared, fit_prepared
 from slipwise.relations.parameters import Term
@@ -73,6 +75,7 @@ def select_effects(
         contained = bool(before.terms) and {t.label for t in before.terms} <= starts.keys()
         found = polish(refit(base, chosen, starts, before if contained else None))
         state = replace(state, tried=(found,))
+        state, found = _with_whole_numbers(state, found)
         state, found = plainest(state, found)
         state = _with_rivals(state, proposal, candidates, found)
         tell("weighing", 0.95)
@@ -96,6 +99,18 @@ def _inclusions(proposal: ProposedModel) -> dict[str, Inclusion]:
     for c in proposal.linearisation.own:
         fitted[c.effect] = max(fitted.get(c.effect, 0.0), 1.0 / c.unit)
     return compute_inclusions(proposal.posterior, fitted)
+
+
+def _with_whole_numbers(state: Search, found: Hypothesis) -> tuple[Search, Hypothesis]:
+    """Return a model with the better ones of constants that no fit changes, such as the order of a filter."""
+    starts = {t.label: found.values_of(t) for t in found.terms}
+    asked = [
+        (found.terms, {**starts, t.label: v}) for t in found.terms for v in variants(t.effect, starts[t.label])[1:]
+    ]
+    if not asked:
+        return state, found
+    state, others = try_all(state, asked)
+    return state, max([found, *others[:1]], key=lambda h: compute_score(state.path[0].summary, h.summary))
 
 
 def _climb(state: Search, found: Hypothesis) -> tuple[Search, list[Hypothesis]]:

@@ -13,8 +13,7 @@ import pytest
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.diagnosis.candidates import list_candidates
 from slipwise.diagnosis.initial_grid import shapes, strengths
-from slipwise.diagnosis.row_subset import on_screen
-from slipwise.diagnosis.sensitivities import compute_column, compute_residual_with, small
+from slipwise.diagnosis.sensitivities import compute_change, compute_stacked_with, small
 from slipwise.effects import NEEDS, catalogue, scaled
 from slipwise.estimation.base_fit import BaseFit, fit_base
 from slipwise.preparation.sample_faults import find_sample_faults
@@ -64,18 +63,21 @@ def term(base: BaseFit, name: str, target: str = "") -> Term:
 
 def columns(base: BaseFit, of: Term) -> list[np.ndarray]:
     """What it changes for every shape that is tried, each strength alone."""
-    off = compute_residual_with(base, of, of.effect.neutral())
+    off = compute_stacked_with(base, of, of.effect.neutral())
     assert off is not None
     points = [(p, small(of.effect, shape, p)) for shape in shapes(of.effect) for p in strengths(of.effect)]
-    found = [c for c in (compute_column(base, of, p, values, off) for p, values in points) if c is not None]
+    found = [
+        c
+        for c in (compute_change(lambda v: compute_stacked_with(base, of, v), of, p, v, off) for p, v in points)
+        if c is not None
+    ]
     longest = max(float(np.linalg.norm(c)) for c in found)
     return [c for c in found if np.linalg.norm(c) > 0.05 * longest > 0.0]  # a cell zeroed under load reads noise only
 
 
 def left(base: BaseFit, of: Term, *beside: Term) -> float:
     """The largest share of a column that neither the base's numbers nor what stands beside can make [1]."""
-    own = on_screen(base.objective, base.solution.inside)
-    project = make_projector(np.column_stack([own, *(c for t in beside for c in columns(base, t))]))
+    project = make_projector(np.column_stack([base.solution.inside, *(c for t in beside for c in columns(base, t))]))
     found = [float(np.linalg.norm(project(c)) / np.linalg.norm(c)) for c in columns(base, of)]
     assert found, f"{of.label} changes nothing here"
     return max(found)

@@ -1,4 +1,4 @@
-"""Of a long campaign the best slopes are kept and a thinned grid is screened; a whole run confirms what was found."""
+"""Of a long campaign the best slopes are kept; a whole run confirms what was found."""
 
 from dataclasses import replace
 
@@ -8,13 +8,9 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.diagnosis import jacobian_memory as kept_slopes
-from slipwise.diagnosis import row_subset as screened_rows
 from slipwise.diagnosis.full_length_errors import compute_full_length_errors
 from slipwise.diagnosis.hypothesis import make_base_hypothesis
-from slipwise.diagnosis.screening import screen
-from slipwise.effects import catalogue
 from slipwise.record import Record
-from slipwise.relations.parameters import Term
 from slipwise.session.evaluation import errors_of
 
 
@@ -40,24 +36,6 @@ def test_slopes_of_the_best_are_kept_and_the_others_are_taken_anew_where_they_ar
     length = np.linalg.norm(found.solution.jacobian, axis=0)
     assert again.solution.jacobian == pytest.approx(found.solution.jacobian, abs=0.2 * length.max())
     assert kept_slopes.complete_jacobian(again) is again
-
-
-def test_an_ordinary_campaign_is_screened_on_all_its_rows(base):
-    left = base.solution.residuals.stacked(base.objective.fitted)
-    assert screened_rows.on_screen(base.objective, left) is left
-    assert sum(screened_rows.rows_of(base.objective).values()) == len(left)
-
-
-def test_a_thinned_screen_sees_the_same_candidates_with_nearly_the_same_gains(base, monkeypatch):
-    terms = [Term(catalogue()[name]) for name in ("breakaway", "buffer_damping", "run_in")]
-    whole = {s.term.label: s.gain for s in screen(base, terms)}
-    objective, rows = base.objective, len(base.solution.jacobian)
-    monkeypatch.setattr(screened_rows, "_MOST", rows // 3 + 1)
-    assert screened_rows.thinning(objective) == 3
-    thinned = screen(base, terms)
-    assert len(thinned[0].column) == sum(screened_rows.rows_of(objective).values()) < 0.35 * rows
-    assert max(whole, key=lambda label: whole[label]) == thinned[0].term.label
-    assert thinned[0].gain == pytest.approx(max(whole.values()), rel=0.1)
 
 
 def test_a_held_out_run_of_which_a_stretch_was_judged_is_predicted_over_all_its_samples(base):
