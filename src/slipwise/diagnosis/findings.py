@@ -14,6 +14,7 @@ from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import compute_lead, compute_score
 from slipwise.instruments.delay_or_filter import is_delay, passed
 from slipwise.relations.parameters import Term
+from slipwise.selection.inclusion import ABSENT, Inclusion
 
 #: Nothing is surer than this many standard errors.
 _SUREST = 30.0
@@ -48,6 +49,7 @@ class EffectFinding:
         importance: what leaving it out changes.
         material: importance over what matters, of what stays beside small faults of all gauges [1].
         stays: the share of its size that does [1].
+        inclusion: what the posterior says of it.
     """
 
     name: str
@@ -61,6 +63,7 @@ class EffectFinding:
     importance: Importance
     material: float
     stays: float
+    inclusion: Inclusion = ABSENT
 
     @property
     def is_gauge(self) -> bool:
@@ -93,7 +96,8 @@ def collect_findings(
         compute_excess_over_noise(final.summary, final.summary),
     )
     sizes = {n: importances[n].share_of_limit(limits) for n in names}
-    stays = {n: state.inclusions[n].stays if n in state.inclusions else 1.0 for n in names}
+    inclusions = {n: state.inclusions.get(n, ABSENT) for n in names}
+    stays = {n: of.stays for n, of in inclusions.items()}
     out = [
         EffectFinding(
             name=n,
@@ -109,6 +113,7 @@ def collect_findings(
             importance=importances[n],
             material=sizes[n] * stays[n],
             stays=stays[n],
+            inclusion=inclusions[n],
         )
         for n in names
     ]

@@ -34,6 +34,10 @@ class Inclusion:
     stays: float
 
 
+#: Of an effect that no posterior knows.
+ABSENT = Inclusion(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+
+
 def compute_inclusions(posterior: Posterior, fitted: Mapping[str, float]) -> dict[str, Inclusion]:
     """Return effect -> what the posterior says of it.
 
