@@ -11,11 +11,7 @@ from numpy.typing import NDArray
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.findings import EffectFinding, _rivals, compute_excess_over_noise
-from slipwise.diagnosis.hypothesis import Hypothesis, is_at_limit, list_parameters_at_bound, make_base_hypothesis
-from slipwise.diagnosis.hypothesis_fit import make_fit
-from slipwise.diagnosis.importance import Change, Importance
 from slipwise.diagnosis.result import Candidate, Diagnosis
-from slipwise.diagnosis.search_state import Search, tried_before
 from slipwise.diagnosis.verdict import Verdict, decide_verdict, is_confirmed
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit
@@ -29,6 +25,10 @@ from slipwise.relations.parameters import Free, Term, list_base_numbers, make_te
 from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.relations.setting import Weighing
 from slipwise.relations.table import Block, Residuals
+from slipwise.selection.hypothesis import Hypothesis, is_at_limit, list_parameters_at_bound, make_base_hypothesis
+from slipwise.selection.hypothesis_fit import make_fit
+from slipwise.selection.importance import Change, Importance
+from slipwise.selection.search_state import Search, tried_before
 from slipwise.signals.filters import LowPass
 
 Array = NDArray[np.float64]

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from slipwise.diagnosis.candidates import HAS
 from slipwise.effects import NEEDS, Effect, base_effects, catalogue
+from slipwise.selection.candidates import HAS
 
 PACKAGE = Path(__file__).parents[2] / "src" / "slipwise"
 NAMES = re.compile(rf"(?<!\w)({'|'.join(catalogue())})(?!\w)")

@@ -5,9 +5,9 @@ from itertools import combinations, product
 
 from slipwise.diagnosis.findings import compute_excess_over_noise
 from slipwise.diagnosis.indistinguishable import list_alike_pairs, list_known_effects
-from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.effects import Effect
+from slipwise.selection.search_state import Search
 
 Explanation = tuple[str, ...]
 #: A law that explains less is not near [1].

@@ -9,15 +9,11 @@ import numpy as np
 from slipwise.campaign import Campaign
 from slipwise.diagnosis.findings import collect_findings
 from slipwise.diagnosis.full_length_errors import compute_full_length_errors
-from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, refit_for_report
-from slipwise.diagnosis.hypothesis_fit import make_fit
-from slipwise.diagnosis.importance import compute_importance
 from slipwise.diagnosis.indistinguishable import list_alike_pairs
 from slipwise.diagnosis.limitations import list_limitations
 from slipwise.diagnosis.replays import replayed_errors
 from slipwise.diagnosis.reported_sizes import list_named_sizes
 from slipwise.diagnosis.result import Candidate, Diagnosis
-from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.verdict import Verdict, decide_verdict, is_confirmed, with_faults
 from slipwise.effects import Effect
 from slipwise.errors import InputError
@@ -33,6 +29,10 @@ from slipwise.model.file import as_model
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
 from slipwise.selection.explained_alone import list_least_sizes
+from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, refit_for_report
+from slipwise.selection.hypothesis_fit import make_fit
+from slipwise.selection.importance import compute_importance
+from slipwise.selection.search_state import Search
 from slipwise.selection.select import SelectionResult, select_effects
 
 #: Hypotheses that are listed.

@@ -6,15 +6,15 @@ import numpy as np
 
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.ablation import without
-from slipwise.diagnosis.hypothesis import Hypothesis, is_at_limit, list_parameters_at_bound
-from slipwise.diagnosis.importance import Importance
-from slipwise.diagnosis.plainer import holds_as_limit
-from slipwise.diagnosis.search_state import Search
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import compute_lead, compute_score
 from slipwise.instruments.delay_or_filter import is_delay, passed
 from slipwise.relations.parameters import Term
+from slipwise.selection.hypothesis import Hypothesis, is_at_limit, list_parameters_at_bound
+from slipwise.selection.importance import Importance
 from slipwise.selection.inclusion import ABSENT, Inclusion
+from slipwise.selection.plainer import holds_as_limit
+from slipwise.selection.search_state import Search
 
 #: Nothing is surer than this many standard errors.
 _SUREST = 30.0

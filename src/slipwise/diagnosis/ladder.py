@@ -10,11 +10,7 @@ from typing import Any
 import numpy as np
 
 from slipwise.campaign import Campaign
-from slipwise.diagnosis.candidates import list_candidates
-from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, polish, refit, refit_for_report
-from slipwise.diagnosis.hypothesis_fit import make_fit
 from slipwise.diagnosis.replays import replayed_errors
-from slipwise.diagnosis.search_state import Search
 from slipwise.display import Drawn, Tabular
 from slipwise.effects import Effect, find_effect
 from slipwise.errors import InputError, SettingError
@@ -27,8 +23,12 @@ from slipwise.noise.level import is_at_floor
 from slipwise.preparation.data_corrections import DataCorrection
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared, fit_prepared
+from slipwise.selection.candidates import list_candidates
 from slipwise.selection.explained_alone import ExplainedAlone, explain_alone
+from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, polish, refit, refit_for_report
+from slipwise.selection.hypothesis_fit import make_fit
 from slipwise.selection.proposals import MOST_EFFECTS
+from slipwise.selection.search_state import Search
 from slipwise.selection.select import select_effects
 
 

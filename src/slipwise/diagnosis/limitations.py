@@ -11,9 +11,6 @@ from slipwise.channels import part_of
 from slipwise.diagnosis.held_out_regime import find_untestable_reason
 from slipwise.diagnosis.identifiability import list_unidentified
 from slipwise.diagnosis.indistinguishable import list_known_effects
-from slipwise.diagnosis.initial_grid import shapes, strengths
-from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.sensitivities import compute_change, compute_stacked_with, small
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
@@ -25,6 +22,9 @@ from slipwise.rig.frame import storey_channels
 from slipwise.rig.load_basis import buffers_off_centre
 from slipwise.rig.rocking import coupled
 from slipwise.selection.averaged_rows import AveragedRows, make_averaged_rows
+from slipwise.selection.initial_grid import shapes, strengths
+from slipwise.selection.search_state import Search
+from slipwise.selection.sensitivities import compute_change, compute_stacked_with, small
 
 #: Two effects look alike when their columns agree so well: one run gives 0.95, two after a long rest 0.8 at most [1].
 _ALIKE = 0.85

@@ -8,10 +8,8 @@ import numpy as np
 
 from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.alternatives import find_nearest_family, list_discriminating_tests, list_explanations
-from slipwise.diagnosis.importance import Importance
 from slipwise.diagnosis.ladder import Ladder, make_ladder
 from slipwise.diagnosis.replays import replays
-from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import ResidualSurface
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.display import Drawn, Tabular
@@ -23,6 +21,8 @@ from slipwise.noise.level import is_at_floor
 from slipwise.preparation.data_corrections import BEFORE_BALANCES, DataCorrection
 from slipwise.record import Record
 from slipwise.selection.explained_alone import ExplainedAlone
+from slipwise.selection.importance import Importance
+from slipwise.selection.search_state import Search
 
 SCHEMA = 2
 

@@ -12,7 +12,6 @@ from itertools import combinations
 import numpy as np
 
 from slipwise.arrays import Array
-from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.noise.independent_samples import SHORTEST_BLOCK
 from slipwise.relations.run_data import FitRun
 from slipwise.relations.table import Block
@@ -20,6 +19,7 @@ from slipwise.residual_map.field import ResidualField, take_field
 from slipwise.residual_map.ports import girder_states
 from slipwise.residual_map.splines import SplineBasis, choose_equal_bins
 from slipwise.residual_map.states import WORDS, DrivingState, measured_states, pad_instants, pad_states
+from slipwise.selection.hypothesis import Hypothesis
 
 #: Bins of a curve and of each side of a surface.
 _BINS_ONE, _BINS_TWO = 24, 10

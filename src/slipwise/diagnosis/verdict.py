@@ -8,9 +8,7 @@ import numpy as np
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.findings import EffectFinding, compute_excess_over_noise
 from slipwise.diagnosis.held_out_regime import find_untestable_reason
-from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.indistinguishable import is_distinguishable, list_alike_pairs, list_known_effects
-from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import ResidualSurface, leftover, structured
 from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
 from slipwise.estimation.objective import Objective
@@ -21,6 +19,8 @@ from slipwise.evidence.score import compute_relative_drop
 from slipwise.instruments.suspects import effect_of
 from slipwise.preparation.sample_fault import SampleFault
 from slipwise.relations.parameters import Term
+from slipwise.selection.hypothesis import Hypothesis
+from slipwise.selection.search_state import Search
 
 #: Share of a probability that is left where no run is held out, which could have confirmed it [1].
 _UNCONFIRMED = 0.9

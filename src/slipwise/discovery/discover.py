@@ -11,7 +11,6 @@ from pathlib import Path
 
 from slipwise.campaign import Campaign
 from slipwise.diagnosis.diagnose import diagnose
-from slipwise.diagnosis.hypothesis_fit import make_fit
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.law import Law
@@ -30,6 +29,7 @@ from slipwise.noise.level import is_at_floor
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
 from slipwise.residual_map.states import MEASURED, WORDS, pad_instants, pad_states, rig_states
+from slipwise.selection.hypothesis_fit import make_fit
 
 #: Shares of the error above noise at which a law, a state, an organising state may be said [1].
 LAW, STATE, ORGANISED = 0.95, 0.9, 0.5

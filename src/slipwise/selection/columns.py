@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.arrays import Array
-from slipwise.diagnosis.initial_grid import shapes, strengths, two_sided
-from slipwise.diagnosis.sensitivities import compute_change, compute_stacked_with, small, typical
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.jobs.parallel import on_every_core
 from slipwise.params import Parameter
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows
+from slipwise.selection.initial_grid import shapes, strengths, two_sided
+from slipwise.selection.sensitivities import compute_change, compute_stacked_with, small, typical
 
 FloatArray = NDArray[np.float32]
 

@@ -7,16 +7,16 @@ import numpy as np
 
 from slipwise.arrays import Array, Mask
 from slipwise.campaign.materiality import Materiality
-from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.diagnosis.hypothesis_fit import make_fit
-from slipwise.diagnosis.initial_grid import strengths
-from slipwise.diagnosis.sensitivities import evaluate_stacked
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.relations.measurement import is_shifting
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import OF_MODEL, CandidateColumn, make_column
+from slipwise.selection.hypothesis import Hypothesis
+from slipwise.selection.hypothesis_fit import make_fit
+from slipwise.selection.initial_grid import strengths
 from slipwise.selection.replacing_laws import make_fit_without_law
+from slipwise.selection.sensitivities import evaluate_stacked
 from slipwise.selection.statistics import Statistics, compute_statistics
 from slipwise.selection.units import compute_sizes_in_place
 

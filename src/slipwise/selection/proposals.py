@@ -7,15 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.materiality import Materiality
-from slipwise.diagnosis.candidates import at_odds
-from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, refit
-from slipwise.diagnosis.hypothesis_fit import make_fit
-from slipwise.diagnosis.initial_grid import REFERENCES, is_placed, strengths
-from slipwise.diagnosis.sensitivities import typical
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import solve, with_slopes
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows, make_averaged_rows
+from slipwise.selection.candidates import at_odds
 from slipwise.selection.columns import (
     FULL_SIZES,
     OF_MODEL,
@@ -25,9 +21,13 @@ from slipwise.selection.columns import (
     is_lag,
     list_forms,
 )
+from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, refit
+from slipwise.selection.hypothesis_fit import make_fit
+from slipwise.selection.initial_grid import REFERENCES, is_placed, strengths
 from slipwise.selection.linearisation import Linearisation, linearise
 from slipwise.selection.posterior import QUICK, Posterior, compute_posterior
 from slipwise.selection.replacing_laws import compute_columns_of_laws, fit_replacing_laws
+from slipwise.selection.sensitivities import typical
 from slipwise.selection.statistics import scale_columns
 from slipwise.selection.units import compute_shares_of_sizes, compute_units
 

@@ -9,7 +9,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from slipwise.diagnosis.hypothesis import Hypothesis, refit
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
@@ -18,6 +17,7 @@ from slipwise.jobs.parallel import on_every_core
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import CandidateColumn, make_column
+from slipwise.selection.hypothesis import Hypothesis, refit
 
 
 def fit_replacing_laws(base: BaseFit, terms: Sequence[Term]) -> list[Hypothesis]:

@@ -5,21 +5,21 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from slipwise.diagnosis.candidates import list_candidates
-from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, polish, refit, refit_for_report
-from slipwise.diagnosis.initial_grid import variants
-from slipwise.diagnosis.jacobian_memory import complete_jacobian
-from slipwise.diagnosis.plainer import plainest
-from slipwise.diagnosis.search_state import Search, try_all, try_one
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.evidence.score import compute_score
 from slipwise.model import Model
 from slipwise.preparation.prepared import Prepared, fit_prepared
 from slipwise.relations.parameters import Term
+from slipwise.selection.candidates import list_candidates
 from slipwise.selection.explained_alone import ExplainedAlone, explain_by_statistics
+from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, polish, refit, refit_for_report
 from slipwise.selection.inclusion import Inclusion, compute_inclusions
+from slipwise.selection.initial_grid import variants
+from slipwise.selection.jacobian_memory import complete_jacobian
+from slipwise.selection.plainer import plainest
 from slipwise.selection.proposals import ProposedModel, list_likely, propose
+from slipwise.selection.search_state import Search, try_all, try_one
 
 #: A term that takes another's place in so large a share of the posterior is refitted in its place [1].
 _RIVALS = 0.1

@@ -10,9 +10,15 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from slipwise.campaign.materiality import Materiality
-from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.diagnosis.hypothesis_fit import make_fit
-from slipwise.diagnosis.importance import (
+from slipwise.errors import SlipwiseError
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.jobs.parallel import on_every_core
+from slipwise.model import Model
+from slipwise.relations.measurement import apply_gauge_faults
+from slipwise.relations.parameters import Term
+from slipwise.selection.hypothesis import Hypothesis
+from slipwise.selection.hypothesis_fit import make_fit
+from slipwise.selection.importance import (
     Answer,
     build_answering_model,
     choose_shown,
@@ -20,14 +26,8 @@ from slipwise.diagnosis.importance import (
     compute_share_of_channel,
     is_replayable,
 )
-from slipwise.diagnosis.initial_grid import shapes, strengths
-from slipwise.diagnosis.sensitivities import small
-from slipwise.errors import SlipwiseError
-from slipwise.estimation.base_fit import BaseFit
-from slipwise.jobs.parallel import on_every_core
-from slipwise.model import Model
-from slipwise.relations.measurement import apply_gauge_faults
-from slipwise.relations.parameters import Term
+from slipwise.selection.initial_grid import shapes, strengths
+from slipwise.selection.sensitivities import small
 
 
 def compute_units(

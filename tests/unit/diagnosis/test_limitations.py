@@ -8,11 +8,8 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.campaign import Campaign, Logger, Run
-from slipwise.diagnosis.candidates import list_candidates
-from slipwise.diagnosis.hypothesis import make_base_hypothesis
 from slipwise.diagnosis.identifiability import list_unidentified, separate_each
 from slipwise.diagnosis.limitations import list_limitations
-from slipwise.diagnosis.search_state import Search
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.preparation.prepare import prepare
@@ -20,7 +17,10 @@ from slipwise.preparation.prepared import fit_prepared
 from slipwise.record import Record
 from slipwise.relations.parameters import Term
 from slipwise.rig import load_specimen
+from slipwise.selection.candidates import list_candidates
 from slipwise.selection.explained_alone import ExplainedAlone
+from slipwise.selection.hypothesis import make_base_hypothesis
+from slipwise.selection.search_state import Search
 
 FADES_AND_LASTS = [Term(catalogue()[name]) for name in ("heating", "run_in")]
 RESTS = "heating"

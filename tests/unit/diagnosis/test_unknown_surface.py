@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from hypotheses import base, left_by
-from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.unknown_surface import above_noise, leftover, structured
 from slipwise.record import Record
+from slipwise.selection.hypothesis import Hypothesis
 
 
 def with_left(found: Hypothesis, relation: str, left: list[np.ndarray]) -> Hypothesis:

@@ -11,13 +11,13 @@ import pytest
 
 from hypotheses import base, decided, left_by, searched
 from slipwise.diagnosis import verdict
-from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.verdict import Verdict, evidence_of, with_faults
 from slipwise.effects import Effect, catalogue
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.preparation.sample_fault import SampleFault
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import FitRun
+from slipwise.selection.hypothesis import Hypothesis
 
 
 def _decided(of: BaseFit, *tried: Hypothesis, **material: float) -> Verdict:

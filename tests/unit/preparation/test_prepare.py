@@ -11,7 +11,6 @@ from measured import as_campaign
 from slipwise.campaign import Campaign, Run
 from slipwise.comparison.compare import compare
 from slipwise.diagnosis import forward_selection
-from slipwise.diagnosis.candidates import list_candidates
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.ladder import ladder
 from slipwise.effects import Effect
@@ -20,6 +19,7 @@ from slipwise.preparation.prepare import prepare
 from slipwise.record import Record
 from slipwise.relations.parameters import Term
 from slipwise.rig import load_specimen
+from slipwise.selection.candidates import list_candidates
 from slipwise.session.session import Session
 
 PADS = "ABCD"

@@ -7,13 +7,13 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign, fit_base
-from slipwise.diagnosis.candidates import list_candidates
-from slipwise.diagnosis.hypothesis import polish, refit
 from slipwise.effects import catalogue
 from slipwise.regression.projection import make_projector
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import make_averaged_rows
+from slipwise.selection.candidates import list_candidates
 from slipwise.selection.explained_alone import explain_alone, list_least_sizes
+from slipwise.selection.hypothesis import polish, refit
 from slipwise.selection.inclusion import SEEN
 
 

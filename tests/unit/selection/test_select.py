@@ -6,13 +6,13 @@ import pytest
 
 from bench import make_bearing
 from slipwise.campaign.materiality import Materiality
-from slipwise.diagnosis.candidates import list_candidates
 from slipwise.diagnosis.diagnose import diagnose
-from slipwise.diagnosis.importance import choose_shown
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import fit_prepared
 from slipwise.selection.averaged_rows import make_averaged_rows
+from slipwise.selection.candidates import list_candidates
 from slipwise.selection.columns import compute_raw_columns, list_forms
+from slipwise.selection.importance import choose_shown
 from slipwise.selection.units import compute_units
 
 

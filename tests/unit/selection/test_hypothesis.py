@@ -6,10 +6,10 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign, fit_base
-from slipwise.diagnosis.hypothesis import make_base_hypothesis, refit
 from slipwise.effects import catalogue
 from slipwise.model import base_model, use
 from slipwise.relations.parameters import Term, list_base_numbers
+from slipwise.selection.hypothesis import make_base_hypothesis, refit
 
 
 @pytest.fixture(scope="module")

@@ -7,10 +7,10 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign, fit_base
-from slipwise.diagnosis import jacobian_memory as kept_slopes
 from slipwise.diagnosis.full_length_errors import compute_full_length_errors
-from slipwise.diagnosis.hypothesis import make_base_hypothesis
 from slipwise.record import Record
+from slipwise.selection import jacobian_memory as kept_slopes
+from slipwise.selection.hypothesis import make_base_hypothesis
 from slipwise.session.evaluation import errors_of
 
 

@@ -5,13 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from slipwise.diagnosis.initial_grid import REFERENCES, strengths
 from slipwise.effects import Limit
 from slipwise.estimation.base_fit import BaseFit, refit_finally
 from slipwise.estimation.least_squares import Solution, get_slopes, solve
 from slipwise.estimation.objective import Objective
 from slipwise.evidence.residual_summary import ResidualSummary, summarise_residuals
 from slipwise.relations.parameters import ZERO, Free, Term, list_replaced_numbers, make_free_inertia
+from slipwise.selection.initial_grid import REFERENCES, strengths
 
 #: A fit is over when a step lowers the squared residual by less than this, and by less than this share of what is left
 #: above the noise [1].

@@ -3,9 +3,9 @@
 import pytest
 
 from hypotheses import base, decided, left_by, searched
-from slipwise.diagnosis.plainer import holds_as_limit, plainest
 from slipwise.effects import catalogue
 from slipwise.relations.parameters import Term
+from slipwise.selection.plainer import holds_as_limit, plainest
 
 RIM, SPRING = Term(catalogue()["restrainer"]), Term(catalogue()["slide_curvature"])
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from slipwise.diagnosis.initial_grid import is_placed, shapes, strengths, variants
 from slipwise.effects import catalogue
 from slipwise.regression.projection import make_projector
+from slipwise.selection.initial_grid import is_placed, shapes, strengths, variants
 
 
 def test_what_the_base_can_do_is_projected_out_and_the_rest_stays() -> None:

@@ -7,10 +7,10 @@ one leaves. At the end itself it is nothing but the plainer one, and is not chos
 
 from collections.abc import Sequence
 
-from slipwise.diagnosis.hypothesis import Hypothesis, is_at_limit
-from slipwise.diagnosis.search_state import Search, tried_or_fitted
 from slipwise.evidence.acceptance import compute_least_drop, is_kept
 from slipwise.relations.parameters import Term
+from slipwise.selection.hypothesis import Hypothesis, is_at_limit
+from slipwise.selection.search_state import Search, tried_or_fitted
 
 
 def plainest(state: Search, found: Hypothesis) -> tuple[Search, Hypothesis]:

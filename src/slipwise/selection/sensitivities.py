@@ -5,7 +5,6 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from slipwise.arrays import Array
-from slipwise.diagnosis.initial_grid import strengths
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
@@ -13,6 +12,7 @@ from slipwise.estimation.objective import Objective
 from slipwise.params import Parameter
 from slipwise.relations.measurement import is_shifting
 from slipwise.relations.parameters import Term
+from slipwise.selection.initial_grid import strengths
 
 #: Size at which a column is taken, as a share of the typical size.
 _SMALL = 0.3

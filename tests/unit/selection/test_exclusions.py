@@ -11,9 +11,6 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import Campaign, Logger, Run
-from slipwise.diagnosis.candidates import list_candidates
-from slipwise.diagnosis.initial_grid import shapes, strengths
-from slipwise.diagnosis.sensitivities import compute_change, compute_stacked_with, small
 from slipwise.effects import NEEDS, catalogue, scaled
 from slipwise.estimation.base_fit import BaseFit, fit_base
 from slipwise.preparation.sample_faults import find_sample_faults
@@ -22,6 +19,9 @@ from slipwise.record import Record
 from slipwise.regression.projection import make_projector
 from slipwise.relations.parameters import Term
 from slipwise.rig import load_specimen
+from slipwise.selection.candidates import list_candidates
+from slipwise.selection.initial_grid import shapes, strengths
+from slipwise.selection.sensitivities import compute_change, compute_stacked_with, small
 
 STEP, SECONDS, STROKE = 0.005, 8.0, 0.05
 #: Less than this of a column is left by what makes all of it, more of one that is a thing of its own [1].

@@ -6,7 +6,7 @@ import pytest
 
 from measured import fit_base
 from slipwise.campaign import load_campaign
-from slipwise.diagnosis.candidates import list_candidates
+from slipwise.selection.candidates import list_candidates
 from unit.campaign.slider import write_at_loads
 
 OF_LOAD = {"pressure_law", "slide_tilt"}

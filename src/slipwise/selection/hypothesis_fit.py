@@ -1,9 +1,9 @@
 """A hypothesis as a fit of its own, as intervals, the table of errors and replays take it."""
 
-from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.diagnosis.jacobian_memory import complete_jacobian
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import with_slopes as take_slopes
+from slipwise.selection.hypothesis import Hypothesis
+from slipwise.selection.jacobian_memory import complete_jacobian
 
 
 def make_fit(base: BaseFit, found: Hypothesis, *, with_slopes: bool = True) -> BaseFit:

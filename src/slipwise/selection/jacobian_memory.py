@@ -9,9 +9,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.estimation.least_squares import Solution, with_slopes
 from slipwise.relations.table import Residuals
+from slipwise.selection.hypothesis import Hypothesis
 
 #: Bytes that slopes and residuals of all that was tried may take together.
 ROOM = 400 * 2**20

@@ -3,8 +3,6 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from slipwise.diagnosis.hypothesis import Hypothesis, polish, refit
-from slipwise.diagnosis.jacobian_memory import ROOM, complete_jacobian, drop_jacobian, lightened, size_of
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
 from slipwise.evidence.residual_summary import ResidualSummary
@@ -12,7 +10,9 @@ from slipwise.evidence.score import compute_score
 from slipwise.jobs.parallel import on_every_core
 from slipwise.relations.parameters import Term
 from slipwise.selection.explained_alone import ExplainedAlone
+from slipwise.selection.hypothesis import Hypothesis, polish, refit
 from slipwise.selection.inclusion import Inclusion
+from slipwise.selection.jacobian_memory import ROOM, complete_jacobian, drop_jacobian, lightened, size_of
 
 #: Hypotheses of one kind that are fitted to the end.
 _POLISHED = 2

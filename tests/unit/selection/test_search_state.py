@@ -6,9 +6,9 @@ from bench import build_campaign
 from hypotheses import base, left_by, searched
 from measured import as_campaign, fit_base
 from slipwise.diagnosis import search_state as module
-from slipwise.diagnosis.candidates import list_candidates
-from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis
-from slipwise.diagnosis.search_state import Search, left_with, try_all
+from slipwise.selection.candidates import list_candidates
+from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis
+from slipwise.selection.search_state import Search, left_with, try_all
 
 
 def test_what_was_fitted_before_is_not_fitted_again_and_the_state_stays_as_it_is() -> None:
