@@ -196,7 +196,7 @@ def ladder(
     say_corrections(found.corrections)
     print_rungs(found)
     screened, refitted = found.tried
-    OUT.print(f"{screened} candidates screened, {refitted} hypotheses refitted, {found.seconds:.0f} s; {found.stopped}")
+    OUT.print(f"{screened} candidates compared, {refitted} hypotheses refitted, {found.seconds:.0f} s; {found.stopped}")
     _wrote([content, picture])
 
 

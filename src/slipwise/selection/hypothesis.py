@@ -121,7 +121,7 @@ def _hypothesis(terms: Sequence[Term], objective: Objective, solution: Solution)
 def polish(found: Hypothesis) -> Hypothesis:
     """Fit on with slopes of its own: those of the base, taken without the effects, lead only near the end.
 
-    What still falls fast is not there yet: a delay of five milliseconds is far from where screening saw it.
+    What still falls fast is not there yet: a delay of five milliseconds is far from where its column saw it.
     """
     before, solution = found.solution.cost, found.solution
     for _ in range(_POLISHES):

@@ -93,7 +93,8 @@ def linearise(
             left = left - whole
     labels = {t.label for t in found.terms}
     strong = {f"{t.label}.{p.name}" for t in found.terms for p in strengths(t.effect)}
-    free = [j for j, key in enumerate(keys) if key not in strong]  # of a strength the whole effect tells
+    ends = set(solution.at_bounds)  # what has run against a bound makes up for nothing
+    free = [j for j, key in enumerate(keys) if key not in strong | ends]  # of a strength the whole effect tells
     of_base = np.array([keys[j].rpartition(".")[0] not in labels for j in free], bool)
     kept, tolerances = slopes[:, free], _tolerances(found, [keys[j] for j in free])
     every = (*columns, *own)

@@ -1,4 +1,4 @@
-"""Columns of a screen: what a candidate of some size changes in the residual of the base fit."""
+"""What a candidate of some size changes in the residual of a fit."""
 
 from collections.abc import Callable, Mapping
 

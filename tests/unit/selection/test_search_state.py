@@ -5,7 +5,7 @@ import pytest
 from bench import build_campaign
 from hypotheses import base, left_by, searched
 from measured import as_campaign, fit_base
-from slipwise.diagnosis import search_state as module
+from slipwise.selection import search_state as module
 from slipwise.selection.candidates import list_candidates
 from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis
 from slipwise.selection.search_state import Search, left_with, try_all
