@@ -266,6 +266,7 @@ def diagnosed(
         search=state,
         final=make_fit(state.base, shown, with_slopes=False),
         seconds=1.0,
+        stages={},
     )
 
 

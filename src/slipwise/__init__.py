@@ -32,8 +32,8 @@ if TYPE_CHECKING:
     from slipwise.design.next_test import NextTest, next_test
     from slipwise.diagnosis.ladder import Ladder, ladder
     from slipwise.diagnosis.result import Diagnosis
+    from slipwise.discovery.discover import add_law, discover
     from slipwise.discovery.discover import diagnose_with_law as diagnose
-    from slipwise.discovery.discover import discover
     from slipwise.discovery.result import Discovery
     from slipwise.effects import Effect
     from slipwise.errors import SlipwiseError
@@ -71,6 +71,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "audit": ("instruments.checks", "check_instruments"),
     "corrected_campaign": ("instruments.checks", "corrected_campaign"),
     "compare": ("comparison.compare", "compare"),
+    "add_law": ("discovery.discover", "add_law"),
     "diagnose": ("discovery.discover", "diagnose_with_law"),
     "discover": ("discovery.discover", "discover"),
     "ladder": ("diagnosis.ladder", "ladder"),
@@ -131,6 +132,7 @@ __all__ = [
     "TableMotion",
     "__version__",
     "add",
+    "add_law",
     "audit",
     "base_model",
     "campaigns",

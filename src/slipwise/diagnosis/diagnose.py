@@ -1,6 +1,5 @@
 """The verb: diagnose a campaign."""
 
-import time
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
@@ -24,6 +23,7 @@ from slipwise.evidence.residual_summary import ResidualSummary, get_error
 from slipwise.evidence.score import compute_score, find_largest_drop
 from slipwise.instruments.suspects import effect_of
 from slipwise.jobs.parallel import one_thread_algebra
+from slipwise.jobs.stage_clock import StageClock
 from slipwise.model import Model
 from slipwise.model.file import as_model
 from slipwise.preparation.prepare import prepare
@@ -60,8 +60,8 @@ def diagnose(
     Raises:
         InputError: the campaign lacks what every fit needs.
     """
-    began = time.perf_counter()
-    tell = progress or (lambda words, share: None)
+    clock = StageClock(progress)
+    tell = clock.tell
     tell("reading", 0.0)
     prepared = prepare(campaign)
     measured = prepared.recorded
@@ -97,6 +97,7 @@ def diagnose(
     whole = compute_full_length_errors(prepared.uncut, prepared.unjudged, base.campaign, judged)
     recorded = _unmended(prepared, start) or before.summary
     tell("done", 1.0)
+    stages = clock.stages()
     return Diagnosis(
         campaign=measured.name,
         verdict=verdict,
@@ -115,7 +116,8 @@ def diagnose(
         corrections=prepared.corrections,
         search=state,
         final=final,
-        seconds=time.perf_counter() - began,
+        seconds=sum(stages.values()),
+        stages=stages,
     )
 
 

@@ -72,6 +72,7 @@ class Diagnosis(Drawn, Tabular):
         search: everything that was looked at.
         final: the best hypothesis as a fit, for reports and replays.
         seconds: it took.
+        stages: what was done, in order -> how long it took [s].
         law: where the verdict is unknown: what `discover` proposes, for a program to read, or None.
     """
 
@@ -93,6 +94,7 @@ class Diagnosis(Drawn, Tabular):
     search: Search
     final: BaseFit
     seconds: float
+    stages: Mapping[str, float]
     law: Mapping[str, Any] | None = None
 
     @property
