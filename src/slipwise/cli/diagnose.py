@@ -26,7 +26,6 @@ from slipwise.cli.options import (
 from slipwise.cli.workers import Cluster, Workers
 from slipwise.errors import InputError
 from slipwise.jobs.interruption import Stopped
-from slipwise.jobs.stage_clock import StageClock
 
 CampaignFolders = Annotated[
     list[Path], typer.Argument(help="Folders with campaign.toml and the measured runs; one, or several to compare.")
@@ -96,10 +95,9 @@ def _diagnose_one(
     # opened first: whoever has this campaign open elsewhere hears so before minutes have passed
     session = sw.Session(measured, start, trust=trust or effect or (), resume=False) if accept else None
     try:
+        own = own_effects(effect, start)
         with steps() as tell:
-            found = sw.diagnose(
-                measured, start, own=own_effects(effect, start), system=system, law=False, progress=tell
-            )
+            found = sw.diagnose(measured, start, own=own, system=system, law=False, progress=tell)
         _show(found, folder, recording and measured.specimen.free, figures, json, timings)
         if session is not None:
             _accept(found, session, ERR if json else OUT)
@@ -132,14 +130,14 @@ def _show(
             _tell(found)
     finally:  # who listened may have left after some lines, as `head` does
         found = _with_law(found, ERR if json else OUT)
-        drawing = StageClock()
-        files = write_diagnosis(found, folder, recording, figures, drawing.tell)
+        times: dict[str, float] = {}
+        files = write_diagnosis(found, folder, recording, figures, times)
     if json:
         print_json(found.as_json())
     else:
         _wrote(files)
     if timings:
-        for words, seconds in {**found.stages, **drawing.stages()}.items():
+        for words, seconds in {**found.stages, **times}.items():
             say(f"{seconds:6.1f} s  {words}", ERR if json else OUT)
 
 
