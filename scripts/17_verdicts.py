@@ -38,7 +38,7 @@ def verdict_of(folder: Path) -> dict[str, Any]:
         return {"verdict": "failed", "words": str(error), "seconds": time.perf_counter() - began}
     said, state = found.verdict, found.search
     surface = said.surface
-    rest = evidence_of_rest(state.path[0], state.final, surface)
+    rest = evidence_of_rest(state.path[0], state.final, surface, state.unexplained)
     return {
         "verdict": said.kind,
         "effects": list(said.effects),
@@ -51,6 +51,7 @@ def verdict_of(folder: Path) -> dict[str, Any]:
         "at_limit": [f.name for f in said.findings if f.at_limit],
         "posterior": {n: rounded(vars(of)) for n, of in state.inclusions.items() if of.present > 0.02},
         "rest": rounded(rest),
+        "unexplained": rounded(state.unexplained),
         "rest_of_base": rounded(evidence_of_rest(state.path[0], state.path[0], None)),
         "held_out": bool(state.base.objective.held_out),
         "errors": [float(f"{e:.4g}") for e in (found.base_error, found.final_error)],

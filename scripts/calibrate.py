@@ -33,8 +33,8 @@ from slipwise.evidence.decision import decide, is_left
 
 TESTS = Path(__file__).parents[1] / "tests"
 OUT = Path(__file__).parents[1] / "src" / "slipwise" / "evidence" / "calibration.json"
-PRESENT = ("lead", "share", "stays", "gauge", "inclusion", "spread", "seen")
-MATTERS = ("size", "inclusion")
+PRESENT = ("lead", "share", "stays", "gauge", "inclusion", "spread", "seen", "beside")
+MATTERS = ("size", "limits", "inclusion")
 FAMILY = ("explained", "left", "relative")
 PARTS, FIFTHS = 5, 5
 #: Fewer cases leave a model as it was.
@@ -116,7 +116,7 @@ def said_by(row: Row, chances: Calibration) -> tuple[float, bool, bool]:
     faults = [name for name in row["effects"] if name not in row["evidence"]]
     left = is_left(row["rest"], Materiality().channel)
     said = {"verdict": decided.kind, "effects": [*decided.named, *faults], "minor": decided.minor}
-    said["leftover"] = "unknown" if decided.kind == "named" and left else ""
+    said["leftover"] = "unknown" if decided.named and left else ""
     return decided.probability, right(row["answer"], said), decided.kind == "unknown"
 
 

@@ -143,7 +143,7 @@ def _show(
 
 def _with_law(found: "sw.Diagnosis", console: Console) -> "sw.Diagnosis":
     """Look for the law of an unknown force; who stops that keeps the verdict."""
-    if found.verdict.kind != "unknown":
+    if found.verdict.kind != "unknown" and not found.verdict.unknown_beside:
         return found
     try:
         with steps() as tell:

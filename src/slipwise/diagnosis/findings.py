@@ -7,7 +7,7 @@ import numpy as np
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.ablation import without
 from slipwise.evidence.residual_summary import ResidualSummary
-from slipwise.evidence.score import compute_lead, compute_score
+from slipwise.evidence.score import compute_lead, compute_relative_drop, compute_score
 from slipwise.instruments.delay_or_filter import is_delay, passed
 from slipwise.relations.parameters import Term
 from slipwise.selection.hypothesis import Hypothesis, is_at_limit, list_parameters_at_bound
@@ -50,6 +50,7 @@ class EffectFinding:
         material: importance over what matters, of what stays beside small faults of all gauges [1].
         stays: the share of its size that does [1].
         inclusion: what the posterior says of it.
+        beside: what is left in the balance that shows it best, with it: something else hides there [floors].
     """
 
     name: str
@@ -64,6 +65,7 @@ class EffectFinding:
     material: float
     stays: float
     inclusion: Inclusion = ABSENT
+    beside: float = 1.0
 
     @property
     def is_gauge(self) -> bool:
@@ -114,10 +116,17 @@ def collect_findings(
             material=sizes[n] * stays[n],
             stays=stays[n],
             inclusion=inclusions[n],
+            beside=_left_where_it_shows(left[n], final.summary),
         )
         for n in names
     ]
     return state, sorted(out, key=lambda f: -f.material)
+
+
+def _left_where_it_shows(without: ResidualSummary, final: ResidualSummary) -> float:
+    """Return what a model leaves of left-out motions in the balance that shows an effect best [floors]."""
+    where = max(final.fitted, key=lambda r: compute_relative_drop(without, final, r))
+    return float(np.sqrt(max(final.left_out_level(where), 1.0)))
 
 
 def compute_excess_over_noise(summary: ResidualSummary, best: ResidualSummary) -> float:

@@ -160,16 +160,17 @@ class Diagnosis(Drawn, Tabular):
         names = " and ".join(self.verdict.effects)
         error = "held-out error" if self.search.base.objective.held_out else "error on the runs that were fitted"
         fall = f"{error} {_short(self.recorded_error)} -> {_short(self.final_error)} times the noise floor"
+        beside = ", and something outside the catalogue" if self.verdict.unknown_beside else ""
         match self.verdict.kind:
             case "complete":
                 clean = is_at_floor(self.base_error) and not self.verdict.minor
                 least = "above the noise" if clean else "that matters"
                 return f"Nothing {least} is missing ({_short(self.base_error)} times the floor; {chance}){self._minor}."
             case "named":
-                more = "; form not exact" if self.verdict.leftover == "unknown" else ""
-                return f"The model lacks {names} ({chance}); {fall}{more}{self._minor}{self._bounds}."
+                more = "; form not exact" if self.verdict.leftover == "unknown" and not beside else ""
+                return f"The model lacks {names}{beside} ({chance}); {fall}{more}{self._minor}{self._bounds}."
             case "instrument":
-                return f"A gauge is at fault: {names} ({chance}); {fall}{self._minor}{self._bounds}."
+                return f"A gauge is at fault: {names}{beside} ({chance}); {fall}{self._minor}{self._bounds}."
             case "ambiguous":
                 rivals = " or ".join(" + ".join(e) for e in list_explanations(self.verdict, self.search))
                 return f"Either {rivals}: this campaign cannot tell them apart ({chance})."
@@ -218,6 +219,7 @@ class Diagnosis(Drawn, Tabular):
             "candidates": [_candidate(c) for c in self.candidates],
             "screened": [_screened(s) for s in self.search.alone],
             "leftover": verdict.leftover,
+            "unknown_beside": verdict.unknown_beside,
             "unknown": _surface(verdict.surface) if verdict.leftover == "unknown" else None,
             "law": None if self.law is None else dict(self.law),
             "predicted_friction": [_predicted_friction(f) for f in self.predicted_friction],

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
 from slipwise.estimation.objective import Objective
 from slipwise.evidence.acceptance import LEAST
 from slipwise.evidence.calibration import compute_log_odds, load_calibration
-from slipwise.evidence.decision import EVEN_ODDS, decide, is_left
+from slipwise.evidence.decision import EVEN_ODDS, Decision, decide, is_left
 from slipwise.evidence.score import compute_relative_drop
 from slipwise.instruments.suspects import effect_of
 from slipwise.preparation.sample_fault import SampleFault
@@ -48,6 +49,7 @@ class Verdict:
         surface: what remains, where anything does.
         rivals: hypotheses that nearly tie with the named one.
         findings: evidence for every effect that was found.
+        unknown_beside: whether what is left is more than that the named laws have not quite the right form.
     """
 
     kind: str
@@ -59,6 +61,7 @@ class Verdict:
     surface: ResidualSurface | None
     rivals: tuple[Hypothesis, ...]
     findings: tuple[EffectFinding, ...]
+    unknown_beside: bool = False
 
 
 def compute_explained_share_of_base(origin: Hypothesis, found: Hypothesis, relation: str = "") -> float:
@@ -82,7 +85,7 @@ def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materi
     origin, final = state.path[0], state.final
     surface = leftover(final)
     surface = surface if structured(surface) else None
-    rest = evidence_of_rest(origin, final, surface)
+    rest = evidence_of_rest(origin, final, surface, state.unexplained)
     of_effects = {f.name: evidence_of(f) for f in found if not f.at_limit}
     decided = decide(of_effects, rest, limits.channel, load_calibration())
     kind = decided.kind
@@ -96,12 +99,13 @@ def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materi
         kind,
         decided.named,
         decided.minor,
-        decided.probability if kind == "unknown" else _confirmed(state, decided.probability, rest),
+        decided.probability if kind == "unknown" else _confirmed(state, decided, rest),
         "unknown" if is_left(rest, limits.channel) or nameless else "none",
         compute_explained_share_of_base(origin, final),
         surface,
         (),
         tuple(found),
+        decided.unknown_beside and kind != "unknown",
     )
     if kind == "unknown":  # what is drawn is all that is missing, not what unnamed effects have left of it
         whole = leftover(origin)
@@ -136,19 +140,27 @@ def evidence_of(finding: EffectFinding) -> dict[str, float]:
         "inclusion": float(np.clip(compute_log_odds(finding.inclusion.matters), -_SUREST_ODDS, _SUREST_ODDS)),
         "spread": min(finding.inclusion.spread, 1.0),
         "seen": float(np.log(max(finding.inclusion.seen, 1e-2))),
+        "limits": float(np.log(max(finding.inclusion.size, 1e-2))),
+        "beside": float(np.log(finding.beside)),
         "size": float(np.log(max(finding.material, 1e-3))),
     }
 
 
-def evidence_of_rest(origin: Hypothesis, final: Hypothesis, surface: ResidualSurface | None) -> dict[str, float]:
+def evidence_of_rest(
+    origin: Hypothesis,
+    final: Hypothesis,
+    surface: ResidualSurface | None,
+    unexplained: Mapping[str, float] = MappingProxyType({}),
+) -> dict[str, float]:
     """Return the numbers on which rests whether the effects that were found are the right ones, whatever they leave.
 
     Args:
         origin: the base model.
         final: the model with the effects.
         surface: structure in what is left.
+        unexplained: relation -> share of what is left that small imperfections do not explain; all where not given.
     """
-    over = left_above_noise(final)
+    over = left_above_noise(final, unexplained)
     where = max(over, key=lambda relation: over[relation])
     return {
         "explained": compute_explained_share_of_base(origin, final, where) if final.terms else 0.0,
@@ -157,11 +169,12 @@ def evidence_of_rest(origin: Hypothesis, final: Hypothesis, surface: ResidualSur
     }
 
 
-def _confirmed(state: Search, probability: float, rest: Mapping[str, float]) -> float:
+def _confirmed(state: Search, decided: Decision, rest: Mapping[str, float]) -> float:
     """Return the probability of a verdict, less where the model leaves much or no held-out run has confirmed it."""
     objective = state.final.objective
     judged = _testable(objective) or objective.fitted
-    if state.final.terms and leaves_much(*_worst_errors(state, judged)):
+    probability = decided.probability
+    if state.final.terms and not decided.unknown_beside and leaves_much(*_worst_errors(state, judged)):
         probability = min(probability, load_calibration().family(rest))
     return probability if objective.held_out else _UNCONFIRMED * probability
 

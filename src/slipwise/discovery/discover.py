@@ -152,7 +152,7 @@ def add_law(found: Diagnosis, progress: Callable[[str, float], None] | None = No
         found: the diagnosis.
         progress: called with what is being done and the share done.
     """
-    if found.verdict.kind != "unknown":
+    if found.verdict.kind != "unknown" and not found.verdict.unknown_beside:
         return found
     law = discover(found.search.base.campaign, diagnosis=found, progress=progress)
     times = {**found.stages, "looking for a law": law.seconds}

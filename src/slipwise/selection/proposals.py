@@ -93,6 +93,14 @@ def propose(base: BaseFit, terms: Sequence[Term], limits: Materiality) -> Propos
     return ProposedModel(first, here, posterior)
 
 
+def compute_unexplained(proposal: ProposedModel) -> dict[str, float]:
+    """Return relation -> share of what the model leaves that small imperfections of everything do not explain [1]."""
+    here = proposal.linearisation
+    left = here.statistics.fitted / np.maximum(here.statistics.rows, 1.0)
+    shares = np.where(left > 0.0, proposal.posterior.level / np.maximum(left, 1e-12), 1.0)
+    return {r: float(min(share, 1.0)) for r, share in zip(here.rows.relations, shares, strict=True)}
+
+
 def _refitted(base: BaseFit, terms: Sequence[Term], starts: Mapping[str, Mapping[str, float]]) -> Hypothesis:
     found = refit(base, terms, starts)
     objective = found.objective.weigh(found.solution.values)

@@ -30,6 +30,7 @@ class Search:
         path: base first, then with one, two ... effects up to the hypothesis at which the selection ended.
         alone: what each candidate could explain alone, best first; those that change nothing are left out.
         inclusions: effect -> what the posterior says of it.
+        unexplained: relation -> share of what the final model leaves that small imperfections do not explain [1].
         final_refit: the hypothesis at which the search ended, refitted with the noise of its own law; None for the
             base.
     """
@@ -41,6 +42,7 @@ class Search:
     path: tuple[Hypothesis, ...]
     alone: Sequence[ExplainedAlone] = ()
     inclusions: Mapping[str, Inclusion] = field(default_factory=dict[str, Inclusion])
+    unexplained: Mapping[str, float] = field(default_factory=dict[str, float])
     final_refit: Hypothesis | None = None
 
     @property

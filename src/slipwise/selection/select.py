@@ -7,18 +7,20 @@ import numpy as np
 
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.evidence.score import compute_score
+from slipwise.evidence.score import FLOOR, compute_score
 from slipwise.model import Model
 from slipwise.preparation.prepared import Prepared, fit_prepared
 from slipwise.relations.parameters import Term
 from slipwise.selection.candidates import list_candidates
+from slipwise.selection.columns import is_lag
 from slipwise.selection.explained_alone import ExplainedAlone, explain_by_statistics
 from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, polish, refit, refit_for_report
 from slipwise.selection.inclusion import Inclusion, compute_inclusions
 from slipwise.selection.initial_grid import variants
 from slipwise.selection.jacobian_memory import complete_jacobian
 from slipwise.selection.plainer import plainest
-from slipwise.selection.proposals import ProposedModel, list_likely, propose
+from slipwise.selection.posterior import Prior
+from slipwise.selection.proposals import ProposedModel, compute_unexplained, list_likely, propose
 from slipwise.selection.search_state import Search, try_all, try_one
 
 #: A term that takes another's place in so large a share of the posterior is refitted in its place [1].
@@ -66,7 +68,8 @@ def select_effects(
     proposal = propose(base, candidates, prepared.recorded.materiality)
     origin = make_base_hypothesis(base)
     alone = _explain_alone(proposal, candidates)
-    state = Search(base, cannot, candidates, (), (origin,), alone, _inclusions(proposal))
+    unexplained = compute_unexplained(proposal)
+    state = Search(base, cannot, candidates, (), (origin,), alone, _inclusions(proposal), unexplained)
     starts = list_likely(proposal.linearisation, candidates, proposal.posterior)
     tell("refitting", 0.7)
     if starts:
@@ -76,6 +79,7 @@ def select_effects(
         found = polish(refit(base, chosen, starts, before if contained else None))
         state = replace(state, tried=(found,))
         state, found = _with_whole_numbers(state, found)
+        state, found = _without_needless_lags(state, found)
         state, found = plainest(state, found)
         state = _with_rivals(state, proposal, candidates, found)
         tell("weighing", 0.95)
@@ -111,6 +115,31 @@ def _with_whole_numbers(state: Search, found: Hypothesis) -> tuple[Search, Hypot
         return state, found
     state, others = try_all(state, asked)
     return state, max([found, *others[:1]], key=lambda h: compute_score(state.path[0].summary, h.summary))
+
+
+def _without_needless_lags(state: Search, found: Hypothesis) -> tuple[Search, Hypothesis]:
+    """Return a model without lags of gauges whose channels another one shifts as well, where that does for both.
+
+    A lag of a third of a period is far from the straight lines by which they were told apart. One is needless where
+    the likelihood falls by less than an effect costs, samples counted as in the posterior.
+    """
+    lags = [t for t in found.terms if is_lag(t)]
+    for term in lags:
+        if any(set(term.targets) & set(t.targets) for t in lags if t is not term):
+            state, other = try_one(state, found.without(term), {}, found)
+            if _compute_loss(other, found) < -np.log(Prior.chance):
+                return _without_needless_lags(state, other)
+    return state, found
+
+
+def _compute_loss(less: Hypothesis, more: Hypothesis) -> float:
+    """Return by how much a model is less likely than another, of left-out motions, samples counted few [nats]."""
+    out = 0.0
+    for relation in more.summary.fitted:
+        count = min(more.summary.counts[relation][0], Prior.independent)
+        one, other = (max(h.summary.left_out_level(relation), FLOOR) for h in (less, more))
+        out += 0.5 * count * float(np.log(one / other))
+    return out
 
 
 def _climb(state: Search, found: Hypothesis) -> tuple[Search, list[Hypothesis]]:
