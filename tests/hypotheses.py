@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.campaign.materiality import Materiality
-from slipwise.diagnosis.findings import EffectFinding, _rivals, compute_excess_over_noise
+from slipwise.diagnosis.findings import EffectFinding, _left_where_it_shows, _rivals, compute_excess_over_noise
 from slipwise.diagnosis.result import Candidate, Diagnosis
 from slipwise.diagnosis.verdict import Verdict, decide_verdict, is_confirmed
 from slipwise.effects import catalogue
@@ -28,6 +28,7 @@ from slipwise.relations.table import Block, Residuals
 from slipwise.selection.hypothesis import Hypothesis, is_at_limit, list_parameters_at_bound, make_base_hypothesis
 from slipwise.selection.hypothesis_fit import make_fit
 from slipwise.selection.importance import Change, Importance
+from slipwise.selection.inclusion import MATTERS, Inclusion
 from slipwise.selection.search_state import Search, tried_before
 from slipwise.signals.filters import LowPass
 
@@ -37,6 +38,8 @@ NOISE = {"slip_x": 2e-5, "table_ax": 0.01, "table_az": 0.01, "girder_ax": 0.01, 
 FORCE_NOISE = 20.0
 #: How many times what matters an effect changes, where nothing is said: well beyond doubt.
 MATERIAL = 5.0
+#: Floors that the posterior sees of an effect.
+SHOWS = 2.0
 
 
 def shaken(frequency: float, seed: int, gauges: tuple[str, ...] = ()) -> Record:
@@ -212,8 +215,10 @@ def findings_of(
                 at_bound=tuple(p for label, p in bounds if label in {t.label for t in terms}),
                 at_limit=any(t.label in is_at_limit(final) for t in terms),
                 importance=importance,
-                material=importance.share_of_limit(limits or Materiality()),
+                material=(size := importance.share_of_limit(limits or Materiality())),
                 stays=1.0,
+                inclusion=Inclusion(float(size > MATTERS), 1.0, size, 0.05, SHOWS, 0.0, 1.0),
+                beside=_left_where_it_shows(left, final.summary),
             )
         )
     return sorted(out, key=lambda f: -f.material)

@@ -60,7 +60,7 @@ def slowed(found: Hypothesis, factor: float) -> Hypothesis:
 
 def test_what_is_left_above_the_noise_does_not_change_with_the_unit_of_time() -> None:
     found = left_by("heating", of=base(pads=4.0), pads=4.0)
-    assert above_noise(slowed(found, 20.0)) == pytest.approx(above_noise(found))
+    assert above_noise(slowed(found, 20.0), {}) == pytest.approx(above_noise(found, {}))
 
 
 def test_one_early_reversal_in_each_run_is_no_structure() -> None:
