@@ -6,7 +6,7 @@
     python scripts/calibrate.py out/families --check    # writes nothing
 
 Each model is a logistic regression in a few numbers (scikit-learn, ridge 1 on numbers of unit spread): whether an
-effect that was found is there, whether it matters, whether effects are of the right family whatever they leave, and
+effect that was found is there, whether it is there and matters, whether effects are of the right family whatever they leave, and
 whether all of a verdict is right, by the product of these. That last one is fitted to verdicts that models of other
 campaigns have made (in five parts, the two makers' campaigns of a seed in one), or it would be told how well the others
 remember. Families that are held out take no part; what the models say of them is printed apart.
@@ -34,7 +34,7 @@ from slipwise.evidence.decision import decide, is_left
 TESTS = Path(__file__).parents[1] / "tests"
 OUT = Path(__file__).parents[1] / "src" / "slipwise" / "evidence" / "calibration.json"
 PRESENT = ("lead", "share", "stays", "gauge", "inclusion", "spread", "seen", "beside")
-MATTERS = ("size", "limits", "inclusion")
+MATTERS = ("limits", "spread", "gauge")
 FAMILY = ("explained", "left", "relative")
 PARTS, FIFTHS = 5, 5
 #: Fewer cases leave a model as it was.
@@ -64,10 +64,13 @@ def cases_of_presence(row: Row) -> list[Case]:
 
 
 def cases_of_matter(row: Row) -> list[Case]:
-    """Give every effect that was found and is there, and whether it matters; not those near the limit."""
+    """Give every effect that was found, and whether it is there and matters; not those near the limit."""
+    from bench.family_score import may_be_named  # pyright: ignore[reportMissingImports]
+
     sizes = {name: entry["of_limit"] for name, entry in row["answer"]["effects"].items()}
-    found = {name: of for name, of in row["evidence"].items() if name in sizes}
-    return [(of, sizes[name] >= 1.0) for name, of in found.items() if not NEAR <= sizes[name] < 1.0]
+    named = may_be_named(row["answer"])
+    found = {name: of for name, of in row["evidence"].items() if not NEAR <= sizes.get(name, 0.0) < 1.0}
+    return [(of, name in named) for name, of in found.items()]
 
 
 def cases_of_family(row: Row) -> list[Case]:

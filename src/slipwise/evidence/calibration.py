@@ -36,7 +36,7 @@ class Calibration:
 
     Attributes:
         present: of an effect that was found: that it is there.
-        matters: of an effect that is there: that it matters. What was found because it seemed large is a little less.
+        matters: of an effect that was found: that it is there and matters.
         right_family: of effects that leave something with structure: that they are of the right family all the same.
         leads_rival: of a hypothesis: that it and not its nearest rival is right, by how many standard errors it leads.
         all_right: of a verdict, by the product of these chances: they are not independent.

@@ -60,7 +60,7 @@ def decide(
         chances: the calibration.
     """
     sure = {name: chances.present(of) for name, of in effects.items()}
-    both = {name: sure[name] * chances.matters(of) for name, of in effects.items()}
+    both = {name: chances.matters(of) for name, of in effects.items()}
     named = tuple(name for name in effects if both[name] >= EVEN_ODDS)
     minor = tuple(name for name in effects if sure[name] >= _LISTED and name not in named)
     left = is_left(rest, least)
