@@ -15,6 +15,7 @@ import json
 import sys
 import time
 from collections import defaultdict
+from collections.abc import Mapping, Set
 from pathlib import Path
 from typing import Any
 
@@ -52,8 +53,13 @@ def words(row: dict[str, Any]) -> str:
     return " ".join([row["verdict"], *row["effects"], f"{row['probability']:.3f}"])
 
 
-def table(rows: list[dict[str, Any]]) -> list[str]:
-    """Give lines: way of writing, how many say the same, largest change of probability; then those that differ."""
+def table(rows: list[dict[str, Any]], adds: Mapping[str, Set[str]]) -> list[str]:
+    """Give lines: way of writing, how many say the same, largest change of probability; then those that differ.
+
+    Args:
+        rows: verdicts.
+        adds: way -> effects that it may add.
+    """
     original = {row["name"]: row for row in rows if row["way"] == ORIGINAL}
     groups: dict[str, list[dict[str, Any]]] = defaultdict(list)
     for row in rows:
@@ -64,7 +70,7 @@ def table(rows: list[dict[str, Any]]) -> list[str]:
         changes = []
         for row in here:
             was = original[row["name"]]
-            if (row["verdict"], row["effects"]) == (was["verdict"], was["effects"]):
+            if row["verdict"] == was["verdict"] and set(row["effects"]) - adds[way] == set(was["effects"]) - adds[way]:
                 changes.append(abs(row["probability"] - was["probability"]))
             else:
                 differ.append(f"{row['name']}, {way}: {words(row)}; as it is: {words(was)}")
@@ -113,7 +119,7 @@ def main() -> None:
                 row = rows[name, way] = {"name": name, "way": way, **verdict_of(rewrite(campaign))}
                 print(json.dumps(row), file=stream, flush=True)
                 print(f"{name}, {way}: {words(row)}", flush=True)
-    print("\n".join(table(list(rows.values()))))
+    print("\n".join(table(list(rows.values()), {r.name: r.adds for r in REWRITINGS})))
 
 
 if __name__ == "__main__":
