@@ -6,7 +6,7 @@ Each function takes a campaign as `slipwise.campaign.load_campaign` gives it, an
 
 import re
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -68,6 +68,18 @@ class Rewriting:
     of: Callable[[Campaign], Campaign]
     applies: Callable[[Campaign], bool] = lambda campaign: True
     adds: frozenset[str] = frozenset()
+
+    def is_same(self, kind: str, effects: Iterable[str], before: str, known: Iterable[str]) -> bool:
+        """Tell whether a verdict is that of the campaign as it is, but for what was done.
+
+        Args:
+            kind: of the verdict.
+            effects: that it names.
+            before: kind of the verdict on the campaign as it is.
+            known: effects that that one names.
+        """
+        more = set(effects) - set(known)
+        return set(known) <= set(effects) and more <= self.adds and (bool(more) or kind == before)
 
 
 def mirrored(campaign: Campaign) -> Campaign:
@@ -270,7 +282,7 @@ REWRITINGS: tuple[Rewriting, ...] = (
     Rewriting("every run twice", every_run_twice),
     Rewriting("fitted runs in another order", in_another_order, _order_is_free),
     Rewriting("larger by similitude", similar),
-    # a rim or a bowl has a middle, which the gauge's zero then misses
+    # a buffer, a rim and a bowl have a middle, which the gauge's zero then misses
     Rewriting("another zero of the slip", with_another_zero_of_slip, adds=frozenset({"channel_offset"})),
     Rewriting("in other units", in_other_units),
 )
