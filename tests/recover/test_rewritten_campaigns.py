@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bench import Campaign as Made
 from bench import build_campaign, make_bearing
 from bench.bearing import draw_bearing, drive_of, record, write_bearing
 from bench.campaign import with_faults
@@ -38,8 +39,14 @@ def bearing(folder: Path, kind: str, seed: int) -> tuple[Campaign, Diagnosis]:
 
 @cache
 def girder() -> tuple[Campaign, Diagnosis]:
-    campaign = as_campaign(build_campaign(54010, effects=("buffer_hardening",), size="large"))
+    campaign = as_girder(build_campaign(54010, effects=("buffer_hardening",), size="large"))
     return campaign, diagnose(campaign)
+
+
+def as_girder(made: Made) -> Campaign:
+    """Give the two earthquakes that are fitted and the one that is held out."""
+    whole = as_campaign(made)
+    return replace(whole, runs=(whole.runs[1], whole.runs[2], whole.runs[4]))
 
 
 def assert_the_same(rewriting: Rewriting, campaign: Campaign, found: Diagnosis) -> None:
@@ -91,20 +98,18 @@ def test_other_noise_of_the_gauges_leaves_the_names(tmp_path: Path) -> None:
     assert found[1].probability == pytest.approx(found[0].probability, abs=_NOISE)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("rewriting", REWRITINGS, ids=lambda rewriting: rewriting.name)
-def test_a_girder_is_judged_alike_however_it_was_written_down(rewriting: Rewriting) -> None:
+@pytest.mark.long  # at half its rate this logger's filter lets through what is folded down
+@pytest.mark.parametrize("name", [r.name for r in REWRITINGS if r.name != "every second sample"])
+def test_a_girder_is_judged_alike_however_it_was_written_down(name: str) -> None:
     campaign, found = girder()
     assert found.verdict.effects == ("buffer_hardening",)
-    if not rewriting.applies(campaign):
-        pytest.skip("the logger's filter lets more through than half the rate can show, or is not known")
-    assert_the_same(rewriting, campaign, found)
+    assert_the_same(by_name(name), campaign, found)
 
 
 @pytest.mark.long
 def test_a_girder_with_other_noise_of_its_gauges_is_judged_alike() -> None:
     made = build_campaign(54010, effects=("buffer_hardening",), size="large")
     campaign, found = girder()
-    other = diagnose(as_campaign(with_faults(made, (), 1))).verdict
+    other = diagnose(as_girder(with_faults(made, (), 1))).verdict
     assert set(other.effects) == set(found.verdict.effects) and other.kind == found.verdict.kind
     assert other.probability == pytest.approx(found.verdict.probability, abs=_NOISE)
