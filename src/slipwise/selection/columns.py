@@ -24,6 +24,8 @@ FloatArray = NDArray[np.float32]
 
 #: Multiples of the typical strength at which a candidate is tried whose effect is far from a straight line.
 FULL_SIZES: tuple[float, ...] = (-4.0, -1.0, 1.0, 4.0)
+#: A change of this size at most is round-off: what a candidate changes may still show beside another effect [noise].
+_ROUND_OFF = 1e-9
 #: Number of the form of an effect that is in the model: its constants are those of the fit.
 OF_MODEL = -2
 
@@ -159,6 +161,6 @@ def _columns_of(
             else:
                 change = compute_change(lambda v: compute_stacked_with(base, term, v), term, moved, values, left)
             step = values[moved.name] - off
-            if change is not None and np.any(change):
+            if change is not None and np.abs(change).max() > _ROUND_OFF:
                 out.append((form.number, moved.name, values, step, rows.average(change).astype(np.float32)))
     return out
