@@ -6,10 +6,11 @@
     python scripts/calibrate.py out/families --check    # writes nothing
 
 Each model is a logistic regression in a few numbers (scikit-learn, ridge 1 on numbers of unit spread): whether an
-effect that was found is there, whether it is there and matters, whether effects are of the right family whatever they leave, and
-whether all of a verdict is right, by the product of these. That last one is fitted to verdicts that models of other
-campaigns have made (in five parts, the two makers' campaigns of a seed in one), or it would be told how well the others
-remember. Families that are held out take no part; what the models say of them is printed apart.
+effect that was found is there, whether its size is what the posterior says, whether effects are of the right family
+whatever they leave, and whether all of a verdict is right, by the product of these. That last one is fitted to verdicts
+that models of other campaigns have made (in five parts, the two makers' campaigns of a seed in one), or it would be
+told how well the others remember. Families that are held out take no part; what the models say of them is printed
+apart.
 
 Printed are, of verdicts by models that have not seen them: how many are right, the Brier score, and how often claims of
 each fifth come true.
@@ -34,11 +35,11 @@ from slipwise.evidence.decision import decide, is_left
 TESTS = Path(__file__).parents[1] / "tests"
 OUT = Path(__file__).parents[1] / "src" / "slipwise" / "evidence" / "calibration.json"
 PRESENT = ("lead", "share", "stays", "gauge", "inclusion", "spread", "seen", "beside")
-MATTERS = ("limits", "spread", "gauge")
+MATTERS = ("spread", "gauge", "lead", "beside")
 FAMILY = ("explained", "left", "relative")
 PARTS, FIFTHS = 5, 5
-#: Fewer cases leave a model as it was.
-LEAST = 10
+#: Fewer cases of either kind leave a model as it was.
+LEAST = 5
 #: An effect so near to what matters is neither right nor wrong to name.
 NEAR = 0.7
 Case = tuple[dict[str, float], bool]
@@ -64,13 +65,13 @@ def cases_of_presence(row: Row) -> list[Case]:
 
 
 def cases_of_matter(row: Row) -> list[Case]:
-    """Give every effect that was found, and whether it is there and matters; not those near the limit."""
+    """Give every effect that matters if its size is what the posterior says, and whether it is there and near that."""
     from bench.family_score import may_be_named  # pyright: ignore[reportMissingImports]
 
     sizes = {name: entry["of_limit"] for name, entry in row["answer"]["effects"].items()}
     named = may_be_named(row["answer"])
-    found = {name: of for name, of in row["evidence"].items() if not NEAR <= sizes.get(name, 0.0) < 1.0}
-    return [(of, name in named) for name, of in found.items()]
+    clear = {name: of for name, of in row["evidence"].items() if not NEAR <= sizes.get(name, 0.0) < 1.0}
+    return [(of, name in named) for name, of in clear.items() if of["inclusion"] > 0.0]
 
 
 def cases_of_family(row: Row) -> list[Case]:
@@ -81,10 +82,9 @@ def cases_of_family(row: Row) -> list[Case]:
 
 
 def fitted(cases: Sequence[Case], names: Sequence[str], before: Logistic) -> Logistic:
-    """Fit a logistic model; the one of before where the cases are all of one kind or too few."""
+    """Fit a logistic model; the one of before where there are too few cases of a kind."""
     answers = np.array([right for _, right in cases])
-    if len(cases) < LEAST or answers.all() or not answers.any():
-        print(f"  {len(cases)} cases of one kind or too few: kept as it was")
+    if min(np.sum(answers), np.sum(~answers)) < LEAST:
         return before
     numbers = np.array([[of[name] for name in names] for of, _ in cases])
     middle, spread = numbers.mean(axis=0), np.maximum(numbers.std(axis=0), 1e-9)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import norm
 
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.campaign.materiality import Materiality
@@ -38,8 +39,8 @@ NOISE = {"slip_x": 2e-5, "table_ax": 0.01, "table_az": 0.01, "girder_ax": 0.01, 
 FORCE_NOISE = 20.0
 #: How many times what matters an effect changes, where nothing is said: well beyond doubt.
 MATERIAL = 5.0
-#: Floors that the posterior sees of an effect.
-SHOWS = 2.0
+#: Floors that the posterior sees of an effect, and the share of its size by which it may be off.
+SHOWS, KNOWN = 2.0, 0.05
 
 
 def shaken(frequency: float, seed: int, gauges: tuple[str, ...] = ()) -> Record:
@@ -217,7 +218,7 @@ def findings_of(
                 importance=importance,
                 material=(size := importance.share_of_limit(limits or Materiality())),
                 stays=1.0,
-                inclusion=Inclusion(float(size > MATTERS), 1.0, size, 0.05, SHOWS, 0.0, 1.0),
+                inclusion=Inclusion(float(norm.cdf((1.0 - MATTERS / size) / KNOWN)), 1.0, size, KNOWN, SHOWS, 0.0, 1.0),
                 beside=_left_where_it_shows(left, final.summary),
             )
         )

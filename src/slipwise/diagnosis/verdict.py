@@ -15,7 +15,7 @@ from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
 from slipwise.estimation.objective import Objective
 from slipwise.evidence.acceptance import LEAST
 from slipwise.evidence.calibration import compute_log_odds, load_calibration
-from slipwise.evidence.decision import EVEN_ODDS, Decision, decide, is_left
+from slipwise.evidence.decision import EVEN_ODDS, decide, is_left
 from slipwise.evidence.score import compute_relative_drop
 from slipwise.instruments.suspects import effect_of
 from slipwise.preparation.sample_fault import SampleFault
@@ -99,7 +99,7 @@ def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materi
         kind,
         decided.named,
         decided.minor,
-        decided.probability if kind == "unknown" else _confirmed(state, decided, rest),
+        decided.probability if kind == "unknown" or origin.objective.held_out else _UNCONFIRMED * decided.probability,
         "unknown" if is_left(rest, limits.channel) or nameless else "none",
         compute_explained_share_of_base(origin, final),
         surface,
@@ -167,16 +167,6 @@ def evidence_of_rest(
         "left": surface.explained if surface else 0.0,
         "relative": float(np.log(max(over[where], 1e-6))),
     }
-
-
-def _confirmed(state: Search, decided: Decision, rest: Mapping[str, float]) -> float:
-    """Return the probability of a verdict, less where the model leaves much or no held-out run has confirmed it."""
-    objective = state.final.objective
-    judged = _testable(objective) or objective.fitted
-    probability = decided.probability
-    if state.final.terms and not decided.unknown_beside and leaves_much(*_worst_errors(state, judged)):
-        probability = min(probability, load_calibration().family(rest))
-    return probability if objective.held_out else _UNCONFIRMED * probability
 
 
 def leaves_much(before: float, after: float) -> bool:

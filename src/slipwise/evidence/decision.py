@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from slipwise.evidence.calibration import Calibration
+from slipwise.evidence.calibration import Calibration, compute_probability
 
 #: What is more likely than this to be there and to matter is named, and so is a rival [1].
 EVEN_ODDS = 0.5
@@ -52,15 +52,15 @@ def decide(
     """Decide what is missing.
 
     Args:
-        effects: name -> its evidence, most important first: "lead" and so on as the calibration asks, "size" (logarithm
-            of its importance over what matters), "gauge" (1 for a fault of gauges) and "rival" (standard errors by
-            which the nearest rival is behind).
+        effects: name -> its evidence, most important first: "lead" and so on as the calibration asks, "inclusion"
+            (log-odds of the posterior that it matters), "gauge" (1 for a fault of gauges) and "rival" (standard errors
+            by which the nearest rival is behind).
         rest: evidence on what is left: "relative" (logarithm of its share of what a balance is made of) and so on.
         least: share of a balance that matters [1].
         chances: the calibration.
     """
     sure = {name: chances.present(of) for name, of in effects.items()}
-    both = {name: chances.matters(of) for name, of in effects.items()}
+    both = {name: chances.matters(of) * compute_probability(of["inclusion"]) for name, of in effects.items()}
     named = tuple(name for name in effects if both[name] >= EVEN_ODDS)
     minor = tuple(name for name in effects if sure[name] >= _LISTED and name not in named)
     left = is_left(rest, least)
