@@ -11,7 +11,7 @@ from slipwise.estimation.least_squares import Solution, get_slopes, solve
 from slipwise.estimation.objective import Objective
 from slipwise.evidence.residual_summary import ResidualSummary, summarise_residuals
 from slipwise.relations.parameters import ZERO, Free, Term, list_replaced_numbers, make_free_inertia
-from slipwise.selection.initial_grid import REFERENCES, strengths
+from slipwise.selection.initial_grid import REFERENCES
 
 #: A fit is over when a step lowers the squared residual by less than this, and by less than this share of what is left
 #: above the noise [1].
@@ -187,11 +187,6 @@ def _inside(term: Term, start: Mapping[str, float]) -> dict[str, float]:
                 value = p.neutral + inward * 0.02 * width
         out[p.name] = float(np.clip(value, p.low, p.high))
     return out
-
-
-def is_strength_at_bound(found: Hypothesis) -> bool:
-    """Return whether a strength has run against a bound other than its absence: a law asked for more than it can be."""
-    return any(p.name in _ends(found, t) for t in found.terms for p in strengths(t.effect))
 
 
 def list_parameters_at_bound(found: Hypothesis) -> list[tuple[str, str]]:

@@ -1,6 +1,6 @@
 """What a selection has looked at, never changed in place, and the refits that it asks for."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from slipwise.estimation.base_fit import BaseFit
@@ -68,7 +68,6 @@ def try_all(
     state: Search,
     asked: Sequence[tuple[Sequence[Term], dict]],
     before: Hypothesis | None = None,
-    promising: Callable[[Hypothesis], bool] | None = None,
 ) -> tuple[Search, list[Hypothesis]]:
     """Refit hypotheses of one kind, side by side; only the best of them are worth a fit to the end.
 
@@ -76,7 +75,6 @@ def try_all(
         state: of the search.
         asked: terms and starting values of each.
         before: as of `refit`.
-        promising: tells which of the best are; all, if not given.
 
     Returns:
         the state that keeps them, and the hypotheses, best first.
@@ -93,7 +91,7 @@ def try_all(
     best: dict[tuple[str, ...], int] = {}
     for place, h in enumerate(found):
         best.setdefault(h.names, place)
-    ended = [place for place in list(best.values())[:_POLISHED] if promising is None or promising(found[place])]
+    ended = list(best.values())[:_POLISHED]
     fits = on_every_core(lambda i: _fit(polish(found[ended[i]])), len(ended), memory=takes)
     for place, fit in zip(ended, fits, strict=True):
         found[place] = Hypothesis(found[place].terms, found[place].objective, *fit)

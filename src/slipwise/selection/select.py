@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from slipwise.effects import Effect
-from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.base_fit import BaseFit, restart_base_fit
 from slipwise.evidence.score import FLOOR, compute_score
 from slipwise.model import Model
 from slipwise.preparation.prepared import Prepared, fit_prepared
@@ -62,8 +62,19 @@ def select_effects(
         InputError: the campaign lacks what every fit needs.
     """
     tell = progress or (lambda what, share: None)
-    base = fit_prepared(prepared, model)
-    candidates, cannot = list_candidates(base, tuple(own))
+    own, base = tuple(own), fit_prepared(prepared, model)
+    state = _select(prepared, base, own, tell)
+    # what an effect seems to explain may be a local minimum that the base fit has missed
+    better = restart_base_fit(base, state.best.solution.values) if state.best.terms else None
+    if better is not None:
+        base, state = better, _select(prepared, better, own, tell)
+    tell("done", 1.0)
+    return SelectionResult(prepared, base, state)
+
+
+def _select(prepared: Prepared, base: BaseFit, own: tuple[Effect, ...], tell: Callable[[str, float], None]) -> Search:
+    """Find what a base fit lacks."""
+    candidates, cannot = list_candidates(base, own)
     tell("holding everything against the residual", 0.15)
     proposal = propose(base, candidates, prepared.recorded.materiality)
     origin = make_base_hypothesis(base)
@@ -89,8 +100,7 @@ def select_effects(
     else:
         nearest = [a for a in alone if a.gain > 0.0][:_NEAREST]
         state, _ = try_all(state, [([a.term], {a.term.label: a.values}) for a in nearest])
-    tell("done", 1.0)
-    return SelectionResult(prepared, base, state)
+    return state
 
 
 def _explain_alone(proposal: ProposedModel, candidates: Sequence[Term]) -> list[ExplainedAlone]:
