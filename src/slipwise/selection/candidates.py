@@ -1,6 +1,6 @@
 """What may be missing: every effect of the catalogue that this campaign could show, instruments on equal terms."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fnmatch import fnmatchcase
 from itertools import combinations
 
@@ -155,7 +155,14 @@ def _alone(effect: Effect, targets: Iterable[str]) -> bool:
 
 
 def at_odds(a: Term, b: Term) -> bool:
-    """Return whether two terms cannot be in one hypothesis: one sticks beside a stick or train, or one on a channel."""
+    """Return whether two terms cannot be in one hypothesis: two sticks, two laws in one place, one twice on a channel."""
+    if a.effect.replaces and a.effect.replaces == b.effect.replaces:
+        return True
     if a.effect.reverses and b.effect.reverses and ("stick" in a.effect.hooks or "stick" in b.effect.hooks):
         return True
     return a.effect.name == b.effect.name and bool(set(a.targets) & set(b.targets))
+
+
+def list_exclusions(terms: Sequence[Term]) -> set[tuple[str, str]]:
+    """Return the labels of every two terms that cannot be in one hypothesis, in both orders."""
+    return {(a.label, b.label) for a in terms for b in terms if a is not b and at_odds(a, b)}

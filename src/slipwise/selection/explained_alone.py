@@ -15,8 +15,8 @@ from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import make_averaged_rows
 from slipwise.selection.columns import CandidateColumn, compute_raw_columns, list_forms
 from slipwise.selection.inclusion import SEEN
-from slipwise.selection.replacing_laws import compute_columns_of_laws, fit_replacing_laws
 from slipwise.selection.statistics import Statistics, compute_left_by_base, compute_statistics
+from slipwise.selection.whole_fits import compute_columns_of_fits, fit_whole
 
 #: A column of which base numbers leave a smaller share does what they do [1].
 _NOTHING_LEFT = 1e-9
@@ -51,10 +51,9 @@ def explain_alone(base: BaseFit, terms: Sequence[Term]) -> list[ExplainedAlone]:
         terms: candidates.
     """
     rows = make_averaged_rows(base.objective)
-    laws = fit_replacing_laws(base, terms)
     columns = [
         *compute_raw_columns(base, list_forms(base, terms, late=True), rows),
-        *compute_columns_of_laws(base, laws, rows),
+        *compute_columns_of_fits(base, fit_whole(base, terms), rows),
     ]
     slopes = rows.average(base.solution.inside)
     left = rows.average(base.solution.residuals.stacked(base.objective.fitted))

@@ -15,7 +15,7 @@ from slipwise.selection.columns import OF_MODEL, CandidateColumn, make_column
 from slipwise.selection.hypothesis import Hypothesis
 from slipwise.selection.hypothesis_fit import make_fit
 from slipwise.selection.initial_grid import strengths
-from slipwise.selection.replacing_laws import make_fit_without_law
+from slipwise.selection.whole_fits import make_fit_without
 from slipwise.selection.sensitivities import evaluate_stacked
 from slipwise.selection.statistics import Statistics, compute_statistics
 from slipwise.selection.units import compute_sizes_in_place
@@ -80,7 +80,7 @@ def linearise(
     left = fitted = rows.average(stacked)
     keys = [f.key for f in solution.free]
     own: list[CandidateColumn] = []
-    laws = {t.label: make_fit_without_law(base, found, t) for t in found.terms if t.effect.replaces}
+    laws = {t.label: make_fit_without(base, found, t) for t in found.terms if t.effect.replaces}
     sizes = compute_sizes_in_place(here, found.terms, laws, limits) if found.terms else {}
     for term in found.terms:
         if sizes[term.label] > 0.0:

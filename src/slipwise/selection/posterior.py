@@ -17,7 +17,7 @@ Cui et al. (2024), Nature Genetics 56:162 (a background of small causes beside f
 JASA 114 (coarsened posterior).
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -140,6 +140,7 @@ def compute_posterior(
     statistics: Statistics,
     columns: Sequence[CandidateColumn],
     tolerances: Mapping[int, tuple[float, float]],
+    apart: Collection[tuple[str, str]] = (),
     effort: Effort | None = None,
 ) -> Posterior:
     """Sample what is missing.
@@ -153,6 +154,7 @@ def compute_posterior(
         columns: of the candidates, in units of materiality.
         tolerances: place of a base number -> how far its rated value lies from the fitted one, and its standard
             deviation about that [its scale].
+        apart: labels of terms that cannot be in one model, in both orders.
         effort: how thoroughly it is sampled.
     """
     prior, effort = Prior(), effort or Effort()
@@ -162,6 +164,10 @@ def compute_posterior(
     shared = {e: effects.count(e) for e in effects}
     per_form = np.bincount(forms.owner, minlength=len(forms.labels))
     odds = np.log([prior.chance / shared[effects[t]] / per_form[t] / prior.places for t in forms.owner])
+    excludes = np.eye(len(forms.labels), dtype=np.bool_)
+    for one, other in apart:
+        if one in forms.labels and other in forms.labels:
+            excludes[forms.labels.index(one), forms.labels.index(other)] = True
     one_sided = np.array([not c.two_sided for c in columns])
     small = np.where(forms.gauge, prior.trifle_of_gauges, prior.trifle)
     trifle = np.empty(len(columns))
@@ -191,7 +197,7 @@ def compute_posterior(
         chains, sweeps = (effort.chains, effort.sweeps) if last else (2, 15)
         visited = [
             sample_places(
-                precision, pulled, forms.columns, forms.length, forms.owner, odds, widths, odds_of, one_sided,
+                precision, pulled, forms.columns, forms.length, forms.owner, excludes, odds, widths, odds_of, one_sided,
                 as_fitted if chain % 2 == 0 else none, sweeps, chain,
             )
             for chain in range(chains)
@@ -234,8 +240,10 @@ def _draw(
         if not members:
             continue
         j = np.array([m[0] for m in members])
-        covariance = np.linalg.inv(precision[np.ix_(j, j)] + np.diag([m[1] ** -2.0 for m in members]))
-        found = rng.multivariate_normal(covariance @ pulled[j], covariance, size=len(at), method="svd")
+        known = precision[np.ix_(j, j)] + np.diag([m[1] ** -2.0 for m in members])
+        root = np.linalg.cholesky(0.5 * (known + known.T))
+        middle = np.linalg.solve(known, pulled[j])
+        found = middle + np.linalg.solve(root.T, rng.standard_normal((len(j), len(at)))).T
         sizes[np.ix_(at, j)] = np.where(one_sided[j], np.maximum(found, 0.0), found)
     return np.where(states[picked] >= 0, states[picked] // len(widths), -1), sizes
 

@@ -11,7 +11,7 @@ from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import solve, with_slopes
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows, make_averaged_rows
-from slipwise.selection.candidates import at_odds
+from slipwise.selection.candidates import at_odds, list_exclusions
 from slipwise.selection.columns import (
     FULL_SIZES,
     OF_MODEL,
@@ -26,10 +26,10 @@ from slipwise.selection.hypothesis_fit import make_fit
 from slipwise.selection.initial_grid import REFERENCES, is_placed, strengths
 from slipwise.selection.linearisation import Linearisation, linearise
 from slipwise.selection.posterior import QUICK, Posterior, compute_posterior
-from slipwise.selection.replacing_laws import compute_columns_of_laws, fit_replacing_laws
 from slipwise.selection.sensitivities import typical
 from slipwise.selection.statistics import scale_columns
-from slipwise.selection.units import compute_shares_of_sizes, compute_units
+from slipwise.selection.units import compute_shares_of_sizes, compute_units, compute_units_of_fits
+from slipwise.selection.whole_fits import compute_columns_of_fits, fit_whole, is_told_by_whole_fit
 
 #: Likelier than this to be of so many limits and floors: it takes part in the next linearisation.
 _LIKELY, _LIMITS, _FLOORS = 0.2, 0.6, 0.5
@@ -76,10 +76,10 @@ def propose(base: BaseFit, terms: Sequence[Term], limits: Materiality) -> Propos
     """
     rows = make_averaged_rows(base.objective)
     origin = make_base_hypothesis(base)
-    laws = fit_replacing_laws(base, terms)
-    raw = [*compute_raw_columns(base, list_forms(base, terms), rows), *compute_columns_of_laws(base, laws, rows)]
+    whole = fit_whole(base, terms)
+    raw = [*compute_raw_columns(base, list_forms(base, terms), rows), *compute_columns_of_fits(base, whole, rows)]
     most = _find_runs_of_most(raw, rows)
-    units = compute_units(base, terms, laws, limits, most)
+    units = compute_units(base, terms, whole, limits, most)
     here = linearise(base, origin, rows, _in_units(raw, units, rows), limits)
     here, posterior = _weighed(base, terms, here, limits, most)
     first = here
@@ -116,7 +116,8 @@ def _weighed(
     most: Mapping[str, int],
 ) -> tuple[Linearisation, Posterior]:
     """Compute the posterior, with units of what may matter replayed at the size and form that it says."""
-    posterior = compute_posterior(here.statistics, here.columns, here.tolerances, QUICK)
+    apart = list_exclusions(terms)
+    posterior = compute_posterior(here.statistics, here.columns, here.tolerances, apart, QUICK)
     of = {t.label: t for t in terms}
     for finer in _FINER:
         closer = _closer_forms(here, of, posterior, finer)
@@ -124,7 +125,7 @@ def _weighed(
             break
         raw = compute_raw_columns(make_fit(base, here.hypothesis, with_slopes=False), closer, here.rows)
         here = here.with_columns([*here.beside, *_like_neighbours(raw, here.beside, here.rows)])
-        posterior = compute_posterior(here.statistics, here.columns, here.tolerances, QUICK)
+        posterior = compute_posterior(here.statistics, here.columns, here.tolerances, apart, QUICK)
     done = set[tuple[str, int]]()
     for _ in range(2):
         asked = {k: v for k, v in _worth_a_replay(here, of, posterior).items() if k not in done}
@@ -145,8 +146,8 @@ def _weighed(
             for c, f in zip(here.columns, factors, strict=True)
         )
         here = replace(here, columns=columns, statistics=scale_columns(here.statistics, factors))
-        posterior = compute_posterior(here.statistics, here.columns, here.tolerances, QUICK)
-    posterior = compute_posterior(here.statistics, here.columns, here.tolerances)
+        posterior = compute_posterior(here.statistics, here.columns, here.tolerances, apart, QUICK)
+    posterior = compute_posterior(here.statistics, here.columns, here.tolerances, apart)
     return here, posterior
 
 
@@ -239,11 +240,16 @@ def _worth_a_replay(
         forms = posterior.forms[:, t]
         for form in np.unique(forms[forms >= 0]):
             at = forms == form
-            if np.mean(at) < _WORTH_A_REPLAY or of[label].effect.replaces:  # the size of such a law is that of its fit
-                continue
+            if np.mean(at) < _WORTH_A_REPLAY or _is_whole(here, label, int(form)):
+                continue  # its size was replayed
             values = _values_at(here, posterior, of[label], int(form), at)
             out[label, int(form)] = values, float(np.mean(posterior.sizes[at, t]))
     return out
+
+
+def _is_whole(here: Linearisation, label: str, form: int) -> bool:
+    """Return whether a form's column is that of a whole fit."""
+    return any(c.label == label and c.form == form and not c.strength for c in here.beside)
 
 
 def _values_at(
@@ -258,8 +264,10 @@ def _values_at(
         share = float(posterior.strengths[at, members[0]].mean()) * first.unit
         ends = {p.name: float(p.neutral or 0.0) for p in strengths(effect)}
         return values | {name: end + share * (values[name] - end) for name, end in ends.items()}
+    if not first.strength:
+        return values
     values |= {p.name: float(p.neutral or 0.0) for p in strengths(effect)}
-    for i in (i for i in members if here.columns[i].strength):
+    for i in members:
         c = here.columns[i]
         p = effect.parameter(c.strength)
         values[c.strength] = float(np.clip(c.neutral + posterior.strengths[at, i].mean() * c.unit, p.low, p.high))
@@ -276,17 +284,21 @@ def _linearised_again(
     present = {t.label for t in found.terms}
     beside = [t for t in terms if t.label not in present and not any(at_odds(t, p) for p in found.terms)]
     were = {c.label for c in before.beside}
+    fit = make_fit(base, found, with_slopes=False)
+    told = {t.label for t in beside if not t.effect.replaces and is_told_by_whole_fit(fit, t)}
     anew = [
         t
         for t in beside
-        if not t.effect.replaces and (chance.get(t.label, 0.0) > _WORTH_A_REPLAY or t.label not in were)
+        if t.label in told
+        or not t.effect.replaces and (chance.get(t.label, 0.0) > _WORTH_A_REPLAY or t.label not in were)
     ]
     stays = {t.label for t in beside} - {t.label for t in anew}
     noise = (before.rows.sigma / rows.sigma).astype(np.float32)
     kept = [replace(c, column=c.column * noise) for c in before.columns if c.label in stays]
-    fit = make_fit(base, found, with_slopes=False)
-    raw = compute_raw_columns(fit, list_forms(fit, anew), rows)
-    return linearise(base, found, rows, [*kept, *_in_units(raw, units, rows)], limits)
+    whole = fit_whole(fit, [t for t in beside if t.label in told])
+    raw = [*compute_raw_columns(fit, list_forms(fit, anew), rows), *compute_columns_of_fits(fit, whole, rows)]
+    every = {**units, **compute_units_of_fits(fit, whole, limits)}
+    return linearise(base, found, rows, [*kept, *_in_units(raw, every, rows)], limits)
 
 
 def _in_units(
@@ -297,11 +309,10 @@ def _in_units(
     out: list[CandidateColumn] = []
     for c in sorted(raw, key=lambda c: c.form):
         key = (c.label, c.strength)
-        direct = _direct(c.column, rows) / abs(c.unit)
-        first.setdefault(key, direct)
-        share = units.get(key, 0.0)
-        if not c.gauge and first[key] > 0.0:
-            share *= direct / first[key]
+        # a gauge's fault is held against the channel that it changes, by as much as the step
+        change = abs(c.unit) if c.gauge else _direct(c.column, rows)
+        first.setdefault(key, change)
+        share = units.get(key, 0.0) * (change / first[key] if first[key] > 0.0 else 1.0)
         if share > 0.0:
             out.append(replace(c, unit=c.unit / share, column=c.column / np.float32(share)))
     return out

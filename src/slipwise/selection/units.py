@@ -31,14 +31,14 @@ from slipwise.selection.sensitivities import small
 
 
 def compute_units(
-    base: BaseFit, terms: Sequence[Term], laws: Sequence[Hypothesis], limits: Materiality, most: Mapping[str, int]
+    base: BaseFit, terms: Sequence[Term], whole: Sequence[Hypothesis], limits: Materiality, most: Mapping[str, int]
 ) -> dict[tuple[str, str], float]:
     """Return (label, strength) -> share of the limit that the small strength of its column changes [1].
 
     Args:
         base: the fit from which the candidates depart.
         terms: candidates.
-        laws: fits with a law that takes another's place, of `fit_replacing_laws`: all of it has the strength "".
+        whole: fits of `fit_whole`: all of a candidate together has the strength "".
         limits: what matters.
         most: label -> place of a run in which the candidate does more than in the last one, if any.
     """
@@ -46,8 +46,7 @@ def compute_units(
     sizes = [(term, small(term.effect, shapes(term.effect)[0], p)) for term, p in moved]
     shares = compute_shares_of_sizes(base, sizes, limits, most)
     found = {(term.label, p.name): share for (term, p), share in zip(moved, shares, strict=True)}
-    whole = _compute_shares_of_laws(base, [make_fit(base, h, with_slopes=False) for h in laws], limits)
-    return found | {(h.terms[0].label, ""): share for h, share in zip(laws, whole, strict=True)}
+    return found | compute_units_of_fits(base, whole, limits)
 
 
 def compute_shares_of_sizes(
@@ -102,14 +101,33 @@ def compute_sizes_in_place(
     return {t.label: x for t, x in zip(terms, on_every_core(size, len(terms)), strict=True)}
 
 
-def _compute_shares_of_laws(base: BaseFit, fits: Sequence[BaseFit], limits: Materiality) -> list[float]:
-    """Return what each fit with a law that takes another's place changes against the base fit [limits]."""
-    if not fits:
-        return []
-    place = choose_shown(base)
-    bare = {place: _answer(build_answering_model(base), base, place)}
-    models = [build_answering_model(fit) for fit in fits]
-    return list(on_every_core(lambda k: _largest_share(base, models[k], bare, [place], limits), len(fits)))
+def compute_units_of_fits(
+    here: BaseFit, whole: Sequence[Hypothesis], limits: Materiality
+) -> dict[tuple[str, str], float]:
+    """Return (label, "") -> share of the limit that a candidate changes as it was fitted [1].
+
+    A law that takes another's place is held against the fit with that other one, what else is added against nothing.
+
+    Args:
+        here: the fit without the candidates.
+        whole: fits of `fit_whole`.
+        limits: what matters.
+    """
+    if not whole:
+        return {}
+    place = choose_shown(here)
+    without = {place: _answer(build_answering_model(here), here, place)}
+
+    def share(k: int) -> float:
+        [term], fit = whole[k].terms, make_fit(here, whole[k], with_slopes=False)
+        model = build_answering_model(fit)
+        if term.effect.replaces:
+            return _largest_share(here, model, without, [place], limits)
+        bare = model.without(*(u.label for u in term.uses(fit.solution.values)))
+        return _largest_share(fit, bare, {place: _answer(model, fit, place)}, [place], limits)
+
+    shares = on_every_core(share, len(whole))
+    return {(h.terms[0].label, ""): x for h, x in zip(whole, shares, strict=True)}
 
 
 def _answer(model: Model, here: BaseFit, place: int) -> Answer:
