@@ -84,7 +84,7 @@ def propose(base: BaseFit, terms: Sequence[Term], limits: Materiality) -> Propos
     here, posterior = _weighed(base, terms, here, limits, most)
     first = here
     for _ in range(_ROUNDS):
-        starts = list_likely(here, terms, posterior)
+        starts = _leave_one_chord(here, posterior, list_likely(here, terms, posterior))
         if set(starts) == {t.label for t in here.hypothesis.terms}:
             break
         found = _refitted(base, [t for t in terms if t.label in starts], starts) if starts else origin
@@ -245,6 +245,16 @@ def _worth_a_replay(
             values = _values_at(here, posterior, of[label], int(form), at)
             out[label, int(form)] = values, float(np.mean(posterior.sizes[at, t]))
     return out
+
+
+def _leave_one_chord(
+    here: Linearisation, posterior: Posterior, starts: Mapping[str, Mapping[str, float]]
+) -> dict[str, Mapping[str, float]]:
+    """Return what is likely, of what is told by whole fits the one that shows most: such changes do not add up."""
+    seen = dict(zip(posterior.labels, posterior.seen.mean(axis=0), strict=True))
+    whole = [label for label in starts if any(c.label == label and not c.strength for c in here.beside)]
+    gone = set(sorted(whole, key=lambda label: seen[label])[:-1])
+    return {label: values for label, values in starts.items() if label not in gone}
 
 
 def _is_whole(here: Linearisation, label: str, form: int) -> bool:
