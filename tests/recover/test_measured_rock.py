@@ -34,7 +34,7 @@ def test_rate_and_state_of_rock_is_named_with_the_constants_of_another_fit(tmp_p
     (tmp_path / "campaign.toml").write_text(ROCK)
     found = diagnose(load_campaign(tmp_path))
     assert "rate_and_state" in found.verdict.effects
-    assert found.base_error > 1.5 and found.final_error < 1.4  # the slip law alone leaves 1.36, on one step of speed
+    assert found.base_error > 1.5 and found.final_error < 1.3
     sizes = found.candidates[0].parameters
     assert sizes["rate_and_state.direct"].low < 0.0087 < sizes["rate_and_state.direct"].high
-    assert sizes["rate_and_state.state"].value == pytest.approx(0.0090, rel=0.3)
+    assert sizes["rate_and_state.state"].low < 0.0090 < sizes["rate_and_state.state"].high

@@ -6,7 +6,7 @@ from itertools import combinations
 
 import numpy as np
 
-from slipwise.effects import Effect, catalogue, for_pads, scaled
+from slipwise.effects import Effect, catalogue, for_pads, scaled, scaled_to_gauge
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.objective import Objective
 from slipwise.preparation.gauge_groups import find_places_of_gauges
@@ -122,7 +122,10 @@ HAS: dict[str, Callable[[Objective], bool]] = {
 
 
 def _aimed(effect: Effect, objective: Objective) -> Iterator[Term]:
-    """Yield a gauge's fault on every channel or card on which it means something to the relations of a fit."""
+    """Yield a gauge's fault on every channel or card on which it means something to the relations of a fit.
+
+    One slider's gauges have spans as its record asks for: their faults in spans go with its scales.
+    """
     places = find_places_of_gauges(effect, objective.run(0).record)
     for place in sorted(places, key=lambda name: "*" not in name):
         targets = places[place]
@@ -132,7 +135,8 @@ def _aimed(effect: Effect, objective: Objective) -> Iterator[Term]:
             if len(targets) == len(objective.pads):
                 yield Term(effect, targets, "pad_*")
         elif objective.balanced or ((place.startswith("pad_") or place == "slip_x") and _alone(effect, targets)):
-            yield Term(effect, targets, place)
+            slider = not objective.specimen.free
+            yield Term(scaled_to_gauge(effect, targets[0], objective.scales.of) if slider else effect, targets, place)
 
 
 def _unaimed(effect: Effect, objective: Objective) -> str:
@@ -155,7 +159,7 @@ def _alone(effect: Effect, targets: Iterable[str]) -> bool:
 
 
 def at_odds(a: Term, b: Term) -> bool:
-    """Return whether two terms cannot be in one hypothesis: two sticks, two laws in one place, one twice on a channel."""
+    """Return whether two terms exclude each other: two sticks, two laws in one place, or one on a channel twice."""
     if a.effect.replaces and a.effect.replaces == b.effect.replaces:
         return True
     if a.effect.reverses and b.effect.reverses and ("stick" in a.effect.hooks or "stick" in b.effect.hooks):

@@ -46,6 +46,7 @@ class CandidateColumn:
         unit: strength that is one limit, signed as the column was taken [the parameter's unit]; of an effect of the
             model the share of its fitted size.
         column: (q,) change of the averaged residual by one unit [noise].
+        numbers: how many were fitted beside its size, where it is the change of a whole fit.
     """
 
     label: str
@@ -58,6 +59,7 @@ class CandidateColumn:
     two_sided: bool
     unit: float
     column: FloatArray
+    numbers: int = 0
 
 
 def make_column(

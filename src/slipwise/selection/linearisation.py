@@ -15,10 +15,10 @@ from slipwise.selection.columns import OF_MODEL, CandidateColumn, make_column
 from slipwise.selection.hypothesis import Hypothesis
 from slipwise.selection.hypothesis_fit import make_fit
 from slipwise.selection.initial_grid import strengths
-from slipwise.selection.whole_fits import make_fit_without
 from slipwise.selection.sensitivities import evaluate_stacked
 from slipwise.selection.statistics import Statistics, compute_statistics
 from slipwise.selection.units import compute_sizes_in_place
+from slipwise.selection.whole_fits import make_fit_without
 
 #: Standard deviations of a rated mass, and of the constants of an effect in the model, as shares of the values [1].
 _MASS, _CONSTANTS = 0.03, 0.05

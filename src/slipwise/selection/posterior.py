@@ -164,6 +164,9 @@ def compute_posterior(
     shared = {e: effects.count(e) for e in effects}
     per_form = np.bincount(forms.owner, minlength=len(forms.labels))
     odds = np.log([prior.chance / shared[effects[t]] / per_form[t] / prior.places for t in forms.owner])
+    # numbers that were fitted with a form cost what they do in any choice of a model (Schwarz 1978, Ann. Stat. 6)
+    numbers = np.array([columns[of].numbers for of in forms.columns[:, 0]])
+    odds -= 0.5 * numbers * np.log(prior.independent)
     excludes = np.eye(len(forms.labels), dtype=np.bool_)
     for one, other in apart:
         if one in forms.labels and other in forms.labels:

@@ -178,7 +178,7 @@ def _closer_forms(
     """
     out: list[CandidateForm] = []
     for label, term in of.items():
-        members = [i for i, c in enumerate(here.columns) if c.label == label and c.form != OF_MODEL]
+        members = [i for i, c in enumerate(here.columns) if c.label == label and c.form != OF_MODEL and c.strength]
         if not members or not (is_placed(term.effect) or is_lag(term)):
             continue
         top = max(members, key=lambda i: posterior.gain[i])
@@ -252,7 +252,7 @@ def _leave_one_chord(
 ) -> dict[str, Mapping[str, float]]:
     """Return what is likely, of what is told by whole fits the one that shows most: such changes do not add up."""
     seen = dict(zip(posterior.labels, posterior.seen.mean(axis=0), strict=True))
-    whole = [label for label in starts if any(c.label == label and not c.strength for c in here.beside)]
+    whole = [label for label in starts if any(c.label == label and c.form and not c.strength for c in here.beside)]
     gone = set(sorted(whole, key=lambda label: seen[label])[:-1])
     return {label: values for label, values in starts.items() if label not in gone}
 
@@ -300,7 +300,8 @@ def _linearised_again(
         t
         for t in beside
         if t.label in told
-        or not t.effect.replaces and (chance.get(t.label, 0.0) > _WORTH_A_REPLAY or t.label not in were)
+        or not t.effect.replaces
+        and (chance.get(t.label, 0.0) > _WORTH_A_REPLAY or t.label not in were)
     ]
     stays = {t.label for t in beside} - {t.label for t in anew}
     noise = (before.rows.sigma / rows.sigma).astype(np.float32)

@@ -120,6 +120,8 @@ def compute_units_of_fits(
 
     def share(k: int) -> float:
         [term], fit = whole[k].terms, make_fit(here, whole[k], with_slopes=False)
+        if term.effect.port == "gauge":
+            return _share_of_gauge(fit, term, whole[k].values_of(term), limits)
         model = build_answering_model(fit)
         if term.effect.replaces:
             return _largest_share(here, model, without, [place], limits)

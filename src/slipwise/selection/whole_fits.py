@@ -32,8 +32,7 @@ def is_told_by_whole_fit(here: BaseFit, term: Term) -> bool:
         here: a fit without the candidate.
         term: the candidate.
     """
-    one_slider = not here.objective.balanced and term.effect.port != "gauge"
-    return bool(term.effect.replaces) or one_slider or "storeys" in term.effect.needs
+    return bool(term.effect.replaces) or not here.objective.balanced or "storeys" in term.effect.needs
 
 
 def fit_whole(here: BaseFit, terms: Sequence[Term]) -> list[Hypothesis]:
@@ -98,5 +97,7 @@ def compute_columns_of_fits(here: BaseFit, fits: Sequence[Hypothesis], rows: Ave
         change = found.solution.residuals.stacked(here.objective.fitted) - left
         if np.isfinite(change).all() and np.any(change):
             number = 0 if term.effect.replaces else len(shapes(term.effect))
-            out.append(make_column(term, number, None, found.values_of(term), 1.0, rows.average(change)))
+            column = make_column(term, number, None, found.values_of(term), 1.0, rows.average(change))
+            own = sum(f.key.rpartition(".")[0] == term.label for f in found.solution.free)
+            out.append(replace(column, numbers=max(own - 1, 0)))
     return out
