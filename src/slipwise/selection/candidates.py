@@ -12,6 +12,7 @@ from slipwise.estimation.objective import Objective
 from slipwise.preparation.gauge_groups import find_places_of_gauges
 from slipwise.relations.parameters import Term
 from slipwise.rig.load_basis import WARPS, has_corners
+from slipwise.selection.initial_grid import is_lag
 
 #: Loads are steady in each run when they differ between runs by this many times more than within one [1].
 _STEADY = 3.0
@@ -136,7 +137,10 @@ def _aimed(effect: Effect, objective: Objective) -> Iterator[Term]:
                 yield Term(effect, targets, "pad_*")
         elif objective.balanced or ((place.startswith("pad_") or place == "slip_x") and _alone(effect, targets)):
             slider = not objective.specimen.free
-            yield Term(scaled_to_gauge(effect, targets[0], objective.scales.of) if slider else effect, targets, place)
+            own = scaled_to_gauge(effect, targets[0], objective.scales.of) if slider else effect
+            if slider and is_lag(own) and place.endswith("_N") and not _load_varies(objective):
+                continue  # a lag of what never changes moves noise only
+            yield Term(own, targets, place)
 
 
 def _unaimed(effect: Effect, objective: Objective) -> str:

@@ -16,7 +16,7 @@ from slipwise.jobs.parallel import on_every_core
 from slipwise.params import Parameter
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows
-from slipwise.selection.initial_grid import shapes, strengths, two_sided
+from slipwise.selection.initial_grid import is_lag, shapes, strengths, two_sided
 from slipwise.selection.sensitivities import compute_change, compute_stacked_with, small, typical
 
 FloatArray = NDArray[np.float32]
@@ -107,15 +107,10 @@ def list_forms(base: BaseFit, terms: Sequence[Term], *, late: bool = False) -> l
     out = [CandidateForm(t, number, shape) for t in terms for number, shape in enumerate(shapes(t.effect))]
     for term in terms:
         turns = base.objective.adding(term).makes_yaw != base.objective.makes_yaw and len(shapes(term.effect)) == 1
-        if turns or (late and is_lag(term)):
+        if turns or (late and is_lag(term.effect)):
             most = sum(form.term is term for form in out)
             out += [CandidateForm(term, most + k, shapes(term.effect)[0], size) for k, size in enumerate(FULL_SIZES)]
     return out
-
-
-def is_lag(term: Term) -> bool:
-    """Return whether a candidate shifts gauges in time."""
-    return term.effect.port == "gauge" and any(p.unit == "s" for p in strengths(term.effect))
 
 
 def compute_raw_columns(base: BaseFit, forms: Sequence[CandidateForm], rows: AveragedRows) -> list[CandidateColumn]:

@@ -34,6 +34,11 @@ def two_sided(strength: Parameter) -> bool:
     return strength.low < float(strength.neutral or 0.0) < strength.high
 
 
+def is_lag(effect: Effect) -> bool:
+    """Return whether a fault shifts gauges in time."""
+    return effect.port == "gauge" and any(p.unit == "s" for p in strengths(effect))
+
+
 def is_placed(effect: Effect) -> bool:
     """Return whether a law acts at a place or a frequency: a fit that begins beside it does not find it."""
     constants = [p for p in effect.parameters if p.neutral is None and not p.whole]

@@ -128,7 +128,7 @@ class Effort:
 
     chains: int = 6
     sweeps: int = 60
-    draws: int = 400
+    draws: int = 1600
     rounds: int = 3
 
 
@@ -163,7 +163,9 @@ def compute_posterior(
     effects = forms.effects
     shared = {e: effects.count(e) for e in effects}
     per_form = np.bincount(forms.owner, minlength=len(forms.labels))
-    odds = np.log([prior.chance / shared[effects[t]] / per_form[t] / prior.places for t in forms.owner])
+    whole = np.array([not columns[of].strength for of in forms.columns[:, 0]])
+    among = np.where(whole, 1, per_form[forms.owner])  # a whole fit is at its best form, and pays for its numbers
+    odds = np.log([prior.chance / shared[effects[t]] / prior.places for t in forms.owner]) - np.log(among)
     # numbers that were fitted with a form cost what they do in any choice of a model (Schwarz 1978, Ann. Stat. 6)
     numbers = np.array([columns[of].numbers for of in forms.columns[:, 0]])
     odds -= 0.5 * numbers * np.log(prior.independent)
@@ -244,9 +246,10 @@ def _draw(
             continue
         j = np.array([m[0] for m in members])
         known = precision[np.ix_(j, j)] + np.diag([m[1] ** -2.0 for m in members])
-        root = np.linalg.cholesky(0.5 * (known + known.T))
-        middle = np.linalg.solve(known, pulled[j])
-        found = middle + np.linalg.solve(root.T, rng.standard_normal((len(j), len(at)))).T
+        curvatures, axes = np.linalg.eigh(0.5 * (known + known.T))
+        curvatures = np.maximum(curvatures, widths[-1] ** -2.0)  # what the data say of nothing is round-off
+        middle = axes @ ((axes.T @ pulled[j]) / curvatures)
+        found = middle + rng.standard_normal((len(at), len(j))) @ (axes / np.sqrt(curvatures)).T
         sizes[np.ix_(at, j)] = np.where(one_sided[j], np.maximum(found, 0.0), found)
     return np.where(states[picked] >= 0, states[picked] // len(widths), -1), sizes
 

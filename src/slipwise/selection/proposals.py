@@ -18,12 +18,11 @@ from slipwise.selection.columns import (
     CandidateColumn,
     CandidateForm,
     compute_raw_columns,
-    is_lag,
     list_forms,
 )
 from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, refit
 from slipwise.selection.hypothesis_fit import make_fit
-from slipwise.selection.initial_grid import REFERENCES, is_placed, strengths
+from slipwise.selection.initial_grid import REFERENCES, is_lag, is_placed, strengths
 from slipwise.selection.linearisation import Linearisation, linearise
 from slipwise.selection.posterior import QUICK, Posterior, compute_posterior
 from slipwise.selection.sensitivities import typical
@@ -36,12 +35,16 @@ _LIKELY, _LIMITS, _FLOORS = 0.2, 0.6, 0.5
 #: Likelier than this to be no trifle: its unit is replayed at its own form and size, and its column is taken anew.
 _WORTH_A_REPLAY = 0.05
 MOST_EFFECTS, _ROUNDS = 9, 3
+#: Linearisations of one slider at most, whose effects are added one at a time.
+_STEPS = 5
 #: Factors by which place or frequency, and width, of a law's best form are moved, one pair after the other [1].
 _FINER = ((1.07, 2.0), (1.035, 2.0), (1.018, 1.4))
 #: A form is looked at more closely where it would explain so much [nats].
 _WORTH_A_LOOK = 0.5
 #: An effect that does this many times more in another run than in the last is replayed there too [1].
 _MUCH_MORE = 1.5
+#: A whole fit that changes a smaller share of what matters is none: to bring it to one limit would bring up round-off.
+_NOTHING = 1e-3
 #: A unit that a replay changes by less than this factor stays.
 _SAME_UNIT = 1.2
 
@@ -83,7 +86,7 @@ def propose(base: BaseFit, terms: Sequence[Term], limits: Materiality) -> Propos
     here = linearise(base, origin, rows, _in_units(raw, units, rows), limits)
     here, posterior = _weighed(base, terms, here, limits, most)
     first = here
-    for _ in range(_ROUNDS):
+    for _ in range(_ROUNDS if base.objective.balanced else _STEPS):
         starts = _leave_one_chord(here, posterior, list_likely(here, terms, posterior))
         if set(starts) == {t.label for t in here.hypothesis.terms}:
             break
@@ -179,7 +182,7 @@ def _closer_forms(
     out: list[CandidateForm] = []
     for label, term in of.items():
         members = [i for i, c in enumerate(here.columns) if c.label == label and c.form != OF_MODEL and c.strength]
-        if not members or not (is_placed(term.effect) or is_lag(term)):
+        if not members or not (is_placed(term.effect) or is_lag(term.effect)):
             continue
         top = max(members, key=lambda i: posterior.gain[i])
         if posterior.gain[top] < _WORTH_A_LOOK:
@@ -188,7 +191,7 @@ def _closer_forms(
         number = max(here.columns[i].form for i in members)
         constants = {p.name: p for p in term.effect.parameters if p.neutral is None}
         centre = {name: best.values[name] for name in constants}
-        if is_lag(term):
+        if is_lag(term.effect):
             size = _size_of(term, best)
             sizes = FULL_SIZES if abs(size) < 1.0 else (size / finer[1], size * finer[1])
             out += [CandidateForm(term, number + k, centre, x) for k, x in enumerate(sizes, 1)]
@@ -324,7 +327,7 @@ def _in_units(
         change = abs(c.unit) if c.gauge else _direct(c.column, rows)
         first.setdefault(key, change)
         share = units.get(key, 0.0) * (change / first[key] if first[key] > 0.0 else 1.0)
-        if share > 0.0:
+        if share > (0.0 if c.strength else _NOTHING):
             out.append(replace(c, unit=c.unit / share, column=c.column / np.float32(share)))
     return out
 

@@ -12,11 +12,10 @@ from slipwise.model import Model
 from slipwise.preparation.prepared import Prepared, fit_prepared
 from slipwise.relations.parameters import Term
 from slipwise.selection.candidates import list_candidates
-from slipwise.selection.columns import is_lag
 from slipwise.selection.explained_alone import ExplainedAlone, explain_by_statistics
 from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, polish, refit, refit_for_report
 from slipwise.selection.inclusion import Inclusion, compute_inclusions
-from slipwise.selection.initial_grid import variants
+from slipwise.selection.initial_grid import is_lag, variants
 from slipwise.selection.jacobian_memory import complete_jacobian
 from slipwise.selection.plainer import plainest
 from slipwise.selection.posterior import Prior
@@ -133,7 +132,7 @@ def _without_needless_lags(state: Search, found: Hypothesis) -> tuple[Search, Hy
     A lag of a third of a period is far from the straight lines by which they were told apart. One is needless where
     the likelihood falls by less than an effect costs, samples counted as in the posterior.
     """
-    lags = [t for t in found.terms if is_lag(t)]
+    lags = [t for t in found.terms if is_lag(t.effect)]
     for term in lags:
         if any(set(term.targets) & set(t.targets) for t in lags if t is not term):
             state, other = try_one(state, found.without(term), {}, found)

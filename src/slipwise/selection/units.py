@@ -161,8 +161,9 @@ def _largest_share(
             change = there.channels[c] - without.channels[c]
             shares.append(compute_share_of_channel(change, run.record[c]) / limits.channel)
         if number == 0:
-            sizes = {r: size for r, size in without.responses.items() if size > 0.0}
-            shares += [abs(there.responses[r] / size - 1.0) / limits.response for r, size in sizes.items()]
+            pairs = [(there.responses[r], size) for r, size in without.responses.items() if size > 0.0]
+            # of the larger of the two: a spring loses next to no energy, and any change would be many times that
+            shares += [abs(x - size) / max(x, size) / limits.response for x, size in pairs]
     best = max(shares, default=0.0)
     return best if np.isfinite(best) else 0.0
 

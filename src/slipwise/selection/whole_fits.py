@@ -85,6 +85,8 @@ def make_fit_without(base: BaseFit, found: Hypothesis, term: Term) -> BaseFit:
 def compute_columns_of_fits(here: BaseFit, fits: Sequence[Hypothesis], rows: AveragedRows) -> list[CandidateColumn]:
     """Return the column of each candidate: from the fit without to the fit with it.
 
+    A fit that ends above the one without it has not found its minimum, and tells nothing.
+
     Args:
         here: the fit without.
         fits: of `fit_whole`.
@@ -95,7 +97,7 @@ def compute_columns_of_fits(here: BaseFit, fits: Sequence[Hypothesis], rows: Ave
     for found in fits:
         [term] = found.terms
         change = found.solution.residuals.stacked(here.objective.fitted) - left
-        if np.isfinite(change).all() and np.any(change):
+        if found.solution.cost < here.solution.cost and np.isfinite(change).all():
             number = 0 if term.effect.replaces else len(shapes(term.effect))
             column = make_column(term, number, None, found.values_of(term), 1.0, rows.average(change))
             own = sum(f.key.rpartition(".")[0] == term.label for f in found.solution.free)
