@@ -35,6 +35,7 @@ from slipwise.selection.whole_fits import compute_columns_of_fits, fit_whole, is
 _LIKELY, _LIMITS, _FLOORS = 0.2, 0.6, 0.5
 #: Likelier than this to be no trifle: its unit is replayed at its own form and size, and its column is taken anew.
 _WORTH_A_REPLAY = 0.05
+#: Effects that take part in a linearisation at most, and how often it is done again.
 MOST_EFFECTS, _ROUNDS = 9, 3
 #: Factors by which place or frequency, and width, of a law's best form are moved, one pair after the other [1].
 _FINER = ((1.07, 2.0), (1.035, 2.0), (1.018, 1.4))
