@@ -13,8 +13,8 @@ it. A verdict turns where its kind or its names are others, or where there is no
 while a campaign is diagnosed is not moved there, for it turns nothing.
 
 Every verdict is one line of OUT/turned.jsonl, and the same command goes on where it stopped; when the code has changed,
-another OUT begins anew. `--store` writes what was counted into tests/thresholds.json, beside the words that name the
-bench; `scripts/make_docs.py` makes docs/thresholds.md of it. `--update` brings that table in line with the code: a
+another OUT begins anew. `--store` writes what was counted so far into tests/thresholds.json, beside the words that name
+the bench; `scripts/make_docs.py` makes docs/thresholds.md of it. `--update` brings that table in line with the code: a
 number that is new there waits for its unit, how it scales, and what it stands on.
 """
 
@@ -160,9 +160,9 @@ def turned(statements: list[Any], folders: list[Path], rows: dict[tuple[str, flo
 
 def counts(statements: list[Any], folders: list[Path], rows: dict[tuple[str, float, str], Row]) -> dict[str, Row]:
     """Return for every number that was moved at all campaigns: how many of how many verdicts turned, and read it."""
+    as_is = [rows["", 1.0, folder.name] for folder in folders]
     out: dict[str, Row] = {}
     for one in statements:
-        as_is = [rows["", 1.0, folder.name] for folder in folders]
         pairs = [(was, (one.name, factor)) for was in as_is if one.name in was["reads"] for factor in FACTORS]
         if all((*key, was["campaign"]) in rows for was, key in pairs):
             now = [(was, rows[(*key, was["campaign"])]) for was, key in pairs]
@@ -178,7 +178,7 @@ def main() -> None:
     parser.add_argument("--on", nargs="*", default=[""], help="campaigns whose names begin so")
     parser.add_argument("--only", nargs="*", default=[""], help="numbers whose names begin so, in this order")
     parser.add_argument("--out", type=Path, default=Path("out/thresholds"))
-    parser.add_argument("--store", metavar="BENCH", help="write the counts into the table; the words name the bench")
+    parser.add_argument("--store", metavar="BENCH", help="write what was counted into the table, and move nothing")
     parser.add_argument("--update", action="store_true", help="list the numbers of the code in the table, and end")
     parser.add_argument("--quick", action="store_true", help="make one campaign, and move two numbers")
     parser.add_argument("--diagnose", type=Path, nargs="+", help="print the verdicts of these campaigns, and end")
@@ -216,10 +216,13 @@ def main() -> None:
     path = chosen.out / "turned.jsonl"
     lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
     rows = {(row["threshold"], row["factor"], row["campaign"]): row for row in map(json.loads, lines)}
-    with path.open("a", encoding="utf-8") as stream:
-        for row in turned(statements, folders, rows):
-            rows[row["threshold"], row["factor"], row["campaign"]] = row
-            print(json.dumps(row), file=stream, flush=True)
+    if chosen.store and any(("", 1.0, folder.name) not in rows for folder in folders):
+        parser.error(f"{path} has no verdicts of all these campaigns; measure first, without --store")
+    if not chosen.store:
+        with path.open("a", encoding="utf-8") as stream:
+            for row in turned(statements, folders, rows):
+                rows[row["threshold"], row["factor"], row["campaign"]] = row
+                print(json.dumps(row), file=stream, flush=True)
     counted = counts(statements, folders, rows)
     for name, count in sorted(counted.items(), key=lambda pair: -pair[1]["turned"]):
         print(f"{name:44s} {count['turned']:4d} of {count['of']} verdicts turn, {count['read']} read it")
