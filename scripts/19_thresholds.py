@@ -33,12 +33,13 @@ from types import CodeType, FrameType
 from typing import Any
 
 TESTS = Path(__file__).parents[1] / "tests"
-FACTORS = (1.3, 0.7)
-#: What `--quick` moves, on one campaign of a single slider.
+#: What `--quick` moves once, on one campaign of a single slider.
 QUICK = ("evidence.decision.EVEN_ODDS", "preparation.dead_cells._UNSEEN_WARP")
 #: Where a module compiles functions, what they read is not seen.
 COMPILES = "machine_code import kept"
 Row = dict[str, Any]
+#: Verdicts by name of the number ("" where none is moved), factor and campaign.
+Rows = dict[tuple[str, float, str], Row]
 #: Where a user would see an error.
 FAILED: Row = {"kind": "failed", "names": [], "mentioned": []}
 
@@ -120,13 +121,14 @@ def is_read(name: str, mentioned: Collection[str], unseen: dict[str, set[str]]) 
     return any(f"{one}.{last}" in mentioned or last in unseen[one] for one in modules)
 
 
-def turned(statements: list[Any], folders: list[Path], rows: dict[tuple[str, float, str], Row]) -> Iterator[Row]:
+def turned(statements: list[Any], factors: list[float], folders: list[Path], rows: Rows) -> Iterator[Row]:
     """Yield verdicts that are not there yet: as the library is, and with one number moved.
 
     Args:
         statements: `thresholds.Statement` of each number that is moved.
+        factors: by which.
         folders: of the campaigns.
-        rows: verdicts that are there, by name of the number, factor and campaign.
+        rows: verdicts that are there.
     """
     from thresholds import ROOT, moved, read_table, with_value  # pyright: ignore[reportMissingImports]
 
@@ -144,7 +146,7 @@ def turned(statements: list[Any], folders: list[Path], rows: dict[tuple[str, flo
             yield {"threshold": "", "factor": 1.0, **row, "reads": reads}
         for one in statements:
             reading = [folder for folder in folders if one.name in rows["", 1.0, folder.name]["reads"]]
-            for factor in FACTORS:
+            for factor in factors:
                 missing = [folder for folder in reading if (one.name, factor, folder.name) not in rows]
                 if not missing:
                     continue
@@ -158,16 +160,16 @@ def turned(statements: list[Any], folders: list[Path], rows: dict[tuple[str, flo
                 file.write_text(text, encoding="utf-8")
 
 
-def counts(statements: list[Any], folders: list[Path], rows: dict[tuple[str, float, str], Row]) -> dict[str, Row]:
+def counts(statements: list[Any], factors: list[float], folders: list[Path], rows: Rows) -> dict[str, Row]:
     """Return for every number that was moved at all campaigns: how many of how many verdicts turned, and read it."""
     as_is = [rows["", 1.0, folder.name] for folder in folders]
     out: dict[str, Row] = {}
     for one in statements:
-        pairs = [(was, (one.name, factor)) for was in as_is if one.name in was["reads"] for factor in FACTORS]
+        pairs = [(was, (one.name, factor)) for was in as_is if one.name in was["reads"] for factor in factors]
         if all((*key, was["campaign"]) in rows for was, key in pairs):
             now = [(was, rows[(*key, was["campaign"])]) for was, key in pairs]
             differ = sum((was["kind"], was["names"]) != (new["kind"], new["names"]) for was, new in now)
-            out[one.name] = {"turned": differ, "read": len(now), "of": len(folders) * len(FACTORS)}
+            out[one.name] = {"turned": differ, "read": len(now), "of": len(folders) * len(factors)}
     return out
 
 
@@ -177,10 +179,11 @@ def main() -> None:
     parser.add_argument("--campaigns", type=Path, help="a folder of campaigns")
     parser.add_argument("--on", nargs="*", default=[""], help="campaigns whose names begin so")
     parser.add_argument("--only", nargs="*", default=[""], help="numbers whose names begin so, in this order")
+    parser.add_argument("--factors", type=float, nargs="*", default=[1.3, 0.7])
     parser.add_argument("--out", type=Path, default=Path("out/thresholds"))
     parser.add_argument("--store", metavar="BENCH", help="write what was counted into the table, and move nothing")
     parser.add_argument("--update", action="store_true", help="list the numbers of the code in the table, and end")
-    parser.add_argument("--quick", action="store_true", help="make one campaign, and move two numbers")
+    parser.add_argument("--quick", action="store_true", help="make one campaign, and move two numbers once")
     parser.add_argument("--diagnose", type=Path, nargs="+", help="print the verdicts of these campaigns, and end")
     parser.add_argument("--mention", action="store_true", help="with --diagnose: print what was read for them too")
     chosen = parser.parse_args()
@@ -202,7 +205,7 @@ def main() -> None:
         from bench.families import FAMILIES  # pyright: ignore[reportMissingImports]
         from bench.family_store import make, orders  # pyright: ignore[reportMissingImports]
 
-        chosen.campaigns, chosen.only = chosen.out / "campaigns", QUICK
+        chosen.campaigns, chosen.only, chosen.factors = chosen.out / "campaigns", QUICK, [1.3]
         for order in orders(chosen.out, [FAMILIES["tribometers"]], ["ode"], 1):
             make(order)
     if not chosen.campaigns:
@@ -220,10 +223,10 @@ def main() -> None:
         parser.error(f"{path} has no verdicts of all these campaigns; measure first, without --store")
     if not chosen.store:
         with path.open("a", encoding="utf-8") as stream:
-            for row in turned(statements, folders, rows):
+            for row in turned(statements, chosen.factors, folders, rows):
                 rows[row["threshold"], row["factor"], row["campaign"]] = row
                 print(json.dumps(row), file=stream, flush=True)
-    counted = counts(statements, folders, rows)
+    counted = counts(statements, chosen.factors, folders, rows)
     for name, count in sorted(counted.items(), key=lambda pair: -pair[1]["turned"]):
         print(f"{name:44s} {count['turned']:4d} of {count['of']} verdicts turn, {count['read']} read it")
     if chosen.store:

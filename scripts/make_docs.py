@@ -183,7 +183,7 @@ def thresholds_page() -> str:
         _ABOUT_THRESHOLDS,
         f"Bench of the counts: {'; '.join(benches) or 'none yet'}.",
         "## By package",
-        _table(["package", "numbers", *BASES, "definitions", "measured", "turn a verdict"], counted),
+        _table(["package", "numbers", *BASES, "definitions", "moved", "turn a verdict"], counted),
         f"A definition decides nothing: {SCALES['definition'].partition(': ')[2]}. It counts under no basis.",
         "## How a number scales",
         _table(["word", "meaning"], SCALES.items()),
@@ -207,10 +207,10 @@ def thresholds_page() -> str:
 
 
 def _counts(rows: Iterable[dict[str, Any]], bases: list[str]) -> list[str]:
-    """Count rows of the table of thresholds: all, by basis, definitions, measured, and those that turn a verdict."""
+    """Count rows of the table of thresholds: all, by basis, definitions, moved, and those that turn a verdict."""
     rows = list(rows)
     decide = [row for row in rows if row["scales"] != "definition"]
-    measured = [row for row in decide if row["turned"] is not None]
+    measured = [row for row in decide if row["read"]]
     numbers = [len(rows), *(sum(row["basis"] == basis for row in decide) for basis in bases)]
     return [str(n) for n in (*numbers, len(rows) - len(decide), len(measured), sum(r["turned"] > 0 for r in measured))]
 
