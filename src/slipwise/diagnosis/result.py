@@ -24,6 +24,7 @@ from slipwise.selection.explained_alone import ExplainedAlone
 from slipwise.selection.importance import Importance
 from slipwise.selection.search_state import Search
 
+#: Number of the format of diagnosis.json.
 SCHEMA = 2
 
 

@@ -36,6 +36,7 @@ from slipwise.relations.parameters import Free
 Shared = tuple[Array, NDArray[np.int64]]
 #: Fewer blocks than this many for each free number are no basis; blocks are then made shorter [1].
 _BLOCKS_EACH = 3
+#: How often an interval holds the truth [1].
 COVERAGE = 0.95
 #: Standard deviation of the timing that a pad and its cards share over a run: anywhere within +-`TIMING` [s].
 _SHARED_TIMING = TIMING / np.sqrt(3.0)

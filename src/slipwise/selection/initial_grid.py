@@ -13,6 +13,7 @@ REFERENCES: frozenset[str] = frozenset({"rated", "reference"})
 _MOST_POINTS = 5
 #: Multiples of a constant's typical value that are tried: a fit that begins a decade off ends in another local minimum.
 _NEARBY = (0.33, 1.0, 3.0)
+#: The same where its bounds are far apart.
 _FAR = (0.035, 0.2, 1.0, 5.0, 28.0)
 #: A constant that is usually absent is tried at this share of its largest value too [1].
 _SOME = 0.1

@@ -34,6 +34,7 @@ from slipwise.selection.whole_fits import compute_columns_of_fits, fit_whole, is
 _LIKELY, _LIMITS, _FLOORS = 0.2, 0.6, 0.5
 #: Likelier than this to be no trifle: its unit is replayed at its own form and size, and its column is taken anew.
 _WORTH_A_REPLAY = 0.05
+#: Effects that take part in a linearisation at most, and how often it is done again.
 MOST_EFFECTS, _ROUNDS = 9, 3
 #: Linearisations of one slider at most, whose effects are added one at a time.
 _STEPS = 5

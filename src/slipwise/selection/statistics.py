@@ -10,6 +10,7 @@ from slipwise.arrays import Array
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import CandidateColumn
 
+#: Rows whose products are taken at once: memory.
 _AT_ONCE = 20_000
 
 
