@@ -71,8 +71,8 @@ ARROWS: dict[str, str] = {
         " relations rig selection simulation units"
     ),
     "view": (
-        "arrays bearings channels comparison diagnosis discovery effects errors estimation jobs noise params record relations"
-        " residual_map rig selection signals studies units"
+        "arrays bearings channels comparison diagnosis discovery effects errors estimation jobs noise params record"
+        " relations residual_map rig selection signals studies units"
     ),
     "cli": "errors jobs view",
     "workbench": (

@@ -16,6 +16,8 @@ from slipwise.bearings.loops import Loop
 _BREAKAWAY = 0.05
 #: At peak speed: not slower than this share of it [1].
 _FASTEST = 0.95
+#: Neighbours whose mean speed counts there.
+_SMOOTHED = 5
 #: A pad that carries less than this share of its mean load says nothing of a coefficient [1].
 _CARRIES = 0.05
 #: A record that begins faster than this share of its peak speed does not show the first movement [1].
@@ -85,7 +87,8 @@ def first_breakaway(loop: Loop, friction: Array, typical: Array) -> tuple[Array,
 
 def is_fastest(loop: Loop, kept: Mask) -> Mask:
     """Tell which of the samples kept (m,) are as fast as the fastest of them."""
-    return kept & (loop.speed >= _FASTEST * loop.speed[kept].max())
+    speed = np.convolve(loop.speed, np.ones(_SMOOTHED) / _SMOOTHED, "same")  # or noise of the speed would choose
+    return kept & (speed >= _FASTEST * speed[kept].max(initial=0.0))
 
 
 def at_peak_speed(loop: Loop, friction: Array, fastest: Mask) -> Array:
@@ -114,7 +117,8 @@ def _largest(loop: Loop, size: Array, order: NDArray[np.int64]) -> tuple[Array, 
     if not carried.any():
         return _nothing(size)
     shares = size[carried] / load[carried, None]
-    return shares.max(axis=0), load[carried][shares.argmax(axis=0)] / loop.area
+    place = int(shares[:, 0].argmax())  # of all forces: what a law's other numbers change is taken there
+    return shares[place], np.full(size.shape[1], load[carried][place] / loop.area)
 
 
 def _nothing(values: Array) -> tuple[Array, Array]:

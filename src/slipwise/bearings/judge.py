@@ -17,7 +17,6 @@ from slipwise.bearings.requirements import list_not_held
 from slipwise.bearings.result import CYCLE, MEAN, RUN, BearingReport, BearingRow, QuantityValue
 from slipwise.campaign import Campaign, as_campaign
 from slipwise.errors import InputError
-from slipwise.estimation.intervals import compute_intervals
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
 from slipwise.model.file import as_model
@@ -92,7 +91,7 @@ def _fit_law(prepared: Prepared, model: Model | Path | str | None) -> tuple[str,
         base = fit_prepared(prepared, start, finely=True)
     except InputError as error:
         return "", {}, [f"quantities of a fitted law: {error}"]
-    forces = predict_forces(base, compute_intervals(base), prepared.uncut, prepared.unjudged)
+    forces = predict_forces(base, prepared.uncut, prepared.unjudged)
     fitted = base.objective.model(base.solution.values)
     return ", ".join(use.label for use in fitted.uses) or "Coulomb friction alone", forces, []
 
@@ -189,9 +188,8 @@ def _about_cycles(loops: Sequence[RunLoops], rows: Sequence[BearingRow]) -> list
     single = [one.run for one in loops if one.cut.cyclic and len(one.cut.longest_series) == 1]
     if single:
         out.append(f"{', '.join(single)}: there is one closed cycle of a stroke; degradation needs two or more")
-    slow = dict.fromkeys(
-        r.run for r in rows if r.part == CYCLE and np.isnan(r.values["characteristic_strength"].measured)
-    )
+    strengths = [(r.run, r.values["characteristic_strength"].measured) for r in rows if r.part == CYCLE]
+    slow = dict.fromkeys(run for run, strength in strengths if np.isnan(strength))
     if slow:
         out.append(
             f"{', '.join(slow)}: Q_d, K_d and breakaway of some cycles, where friction turns round over so much of the "

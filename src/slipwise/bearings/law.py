@@ -1,7 +1,8 @@
 """Friction as the fitted law has it at the measured motion, and as other likely numbers of it would have it.
 
 Likely numbers are drawn from the fit: a multivariate t of the fitted values, their covariance and the fit's degrees of
-freedom. Forces follow them along their slopes at the fitted values, as the covariance does.
+freedom. Forces follow them along their slopes at the fitted values, as the covariance does. What the load cells' noise
+adds to a law that is fed with measured loads, F/N times that noise, is drawn too, sample by sample.
 
 Source: Gelman et al., Bayesian Data Analysis, 3rd ed. (2013), section 4.1, for drawing from the normal approximation.
 """
@@ -15,7 +16,8 @@ from slipwise.arrays import Array
 from slipwise.campaign import Campaign
 from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.intervals import COVERAGE, Intervals
+from slipwise.estimation.intervals import COVERAGE, Intervals, compute_intervals
+from slipwise.estimation.least_squares import with_slopes
 from slipwise.estimation.objective import Objective, make_objective
 from slipwise.relations.run_data import fit_runs
 
@@ -40,29 +42,32 @@ class LawForces:
     force: Array
 
 
-def predict_forces(
-    base: BaseFit, found: Intervals, uncut: Campaign, invalid: InvalidSamples
-) -> Mapping[str, LawForces]:
+def predict_forces(base: BaseFit, uncut: Campaign, invalid: InvalidSamples) -> Mapping[str, LawForces]:
     """Return the forces of every run, by its name.
 
     Args:
         base: the fit.
-        found: its intervals.
         uncut: all samples of the runs, of which the fit may have seen stretches.
         invalid: run -> channel -> samples (n,) of these at which it is no measurement.
     """
+    # a fit ends with slopes of a step before; along numbers that one load cannot tell apart they must be its own
+    found = compute_intervals(replace(base, solution=with_slopes(base.objective, base.solution)))
     objective = _on_whole_runs(base, uncut, invalid)
     values = base.solution.values
     here = objective.residuals(values).pad_forces
-    draws = _draw(found)
-    changes: list[Array] = [np.zeros((*force.shape, len(draws)), dtype=np.float32) for force in here]
+    nearby, draws = objective.near(values), _draw(found)
+    changes: list[Array] = [np.zeros((*force.shape, len(draws))) for force in here]
     for column, key in enumerate(found.keys):
         free = next(f for f in base.free if f.key == key)
         step = _STEP * free.scale
         step = -step if values[key] + step > free.high else step
-        moved = objective.residuals({**values, key: values[key] + step}).pad_forces
+        moved = nearby.residuals({**values, key: values[key] + step}).pad_forces
         for change, there, force in zip(changes, moved, here, strict=True):
             change += ((there - force) / step)[..., None] * draws[:, column]
+    rng = np.random.default_rng(_SEED + 1)
+    for run, change, force in zip(objective.runs, changes, here, strict=True):
+        noise = np.divide(force * run.gauge_noise[1], run.load, out=np.zeros_like(force), where=run.load > 0.0)
+        change += noise[..., None] * rng.standard_normal(change.shape)
     return {
         run.name: LawForces(run.pads, run.time, np.concatenate([force[..., None], force[..., None] + change], axis=2))
         for run, force, change in zip(objective.runs, here, changes, strict=True)

@@ -12,8 +12,10 @@ surfaces); Constantinou et al., MCEER-07-0012 (2007), for Q_d and K_d of sliding
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from slipwise.arrays import Array, Mask
 from slipwise.bearings.coefficients import (
@@ -69,14 +71,15 @@ QUANTITIES: tuple[Quantity, ...] = (
 )
 #: Those that the motion alone decides: a law says nothing of them.
 OF_MOTION = frozenset({"peak_speed", "way", "displacement_max", "displacement_min", "mean_pressure",
-                       "peak_speed_pressure"})  # fmt: skip
-Values = dict[str, Array]
+                       "peak_speed_pressure", "breakaway_pressure"})  # fmt: skip
+Values = dict[str, NDArray[Any]]
 
 
 def measure_cycle(loop: Loop) -> Values:
     """Return every quantity of one closed cycle, key -> (d,) SI; NaN where it cannot be given.
 
-    Where friction turns round over so much of the stroke that no part shows sliding alone, Q_d, K_d and breakaway cannot.
+    Q_d, K_d and breakaway cannot where friction turns round over so much of the stroke that no part of it shows sliding
+    alone.
 
     Args:
         loop: of the cycle.
@@ -93,7 +96,8 @@ def measure_cycle(loop: Loop) -> Values:
     broken = [breakaway(loop, sign * friction, order) for (_, _, sign), order in zip(branches, turned, strict=True)]
     at_ends = [force_at_turn(loop, turn, np.nan_to_num(slope)) for turn in (up, down)]
     energy, stiffness = _energy(loop), (at_ends[0] - at_ends[1]) / stroke
-    fastest = is_fastest(loop, is_in_the_middle(loop))
+    middle = is_in_the_middle(loop)
+    fastest = is_fastest(loop, middle & (loop.direction > 0)) | is_fastest(loop, middle & (loop.direction < 0))
     return {
         **_of_motion(loop, fastest),
         "energy": energy,
@@ -132,11 +136,12 @@ def measure_run(loop: Loop) -> Values:
 
 
 def _of_motion(loop: Loop, fastest: Mask) -> Values:
-    """Return what the motion alone decides; peak speed and the pressure then of the fastest samples (m,)."""
+    """Return what the motion alone decides; peak speed, mean of both directions, of the fastest samples (m,)."""
     steps = np.abs(np.diff(loop.slip))
+    peaks = [loop.speed[kept].max() for sign in (1.0, -1.0) if (kept := fastest & (loop.direction == sign)).any()]
     carried = steps @ (0.5 * (loop.load[1:] + loop.load[:-1]))
     return {
-        "peak_speed": np.array([loop.speed[fastest].max()]),
+        "peak_speed": np.array([np.mean(peaks)]),
         "way": np.array([steps.sum()]),
         "displacement_max": np.array([loop.slip.max()]),
         "displacement_min": np.array([loop.slip.min()]),

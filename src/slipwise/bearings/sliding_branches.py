@@ -1,7 +1,7 @@
 """The two sliding branches of a closed loop: their distance and slope, and where friction has turned round.
 
-Branches are lines fitted over the middle half of the stroke, where speed is nearly the same, so that friction that falls
-with the speed towards a turn is not taken for stiffness.
+Branches are lines fitted over the middle half of the stroke, where speed is nearly the same, so that friction that
+falls with the speed towards a turn is not taken for stiffness.
 """
 
 import numpy as np

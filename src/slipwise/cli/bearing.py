@@ -21,7 +21,7 @@ def bearing(
     figures: Figures = False,
     json: Json = False,
 ) -> None:
-    """Give friction, energy, stiffness, damping, degradation and modification factors, as bearing standards name them.
+    """Report friction, energy, stiffness, damping, degradation and modification factors, as bearing standards name them.
 
     By cycle and by run, of each pad and of their sum, from the measured loops and beside them from the fitted law.
 
@@ -30,7 +30,7 @@ def bearing(
     from slipwise.view.figures.figure_files import figures_into
     from slipwise.view.files import save_json, save_page, save_rows
     from slipwise.view.pages.bearing_page import bearing_page
-    from slipwise.view.words.bearing_tables import wide_rows, workbook_sheets
+    from slipwise.view.words.bearing_tables import BearingTables
     from slipwise.view.workbook import save_workbook
 
     measured = sw.load_campaign(campaign)
@@ -40,12 +40,12 @@ def bearing(
     with steps() as tell:
         found = sw.bearing(measured, start, progress=tell)
         tell("writing the report", 0.97)
-        content = found.as_json()
+        content, tables = found.as_json(), BearingTables(found)
         with figures_into(folder / "figures" if figures else None) as drawn:
             page = save_page(bearing_page(found), folder / "bearing.html")
-        files = [page, save_rows(wide_rows(found.rows), folder / "bearing.csv"), *drawn]
+        files = [page, save_rows(tables.wide(found.rows), folder / "bearing.csv"), *drawn]
         try:
-            files.append(save_workbook(workbook_sheets(found), folder / "bearing.xlsx"))
+            files.append(save_workbook(tables.sheets(), folder / "bearing.xlsx"))
         except sw.SlipwiseError as error:
             without_workbook = str(error)
         files.append(save_json(content, folder / "bearing.json"))
@@ -60,25 +60,17 @@ def bearing(
 
 def _tell(found: "sw.BearingReport") -> None:
     """Print the tables of the total, and what could not be given."""
-    from slipwise.view.words.bearing_tables import (
-        OF_CYCLE,
-        OF_FRICTION,
-        OF_RUN,
-        degradation_rows,
-        printed_rows,
-        standard_rows,
-    )
+    from slipwise.view.words.bearing_tables import FRICTION, LOOP, OF_RUN, BearingTables, name_of_total
     from slipwise.view.words.terminal import print_table
 
+    tables, total = BearingTables(found), name_of_total(found)
     say_corrections(found.corrections)
-    total = "sum of the pads" if found.total == "sum" else f"pad {found.total}"
-    print_table(f"Whole runs, {total}", printed_rows(found.of("run", found.total), OF_RUN))
+    print_table(f"Whole runs, {total}", tables.short(found.of("run", found.total), OF_RUN))
     if series := found.of("mean of cycles", found.total):
-        print_table(f"Coefficient of friction, mean of closed cycles, {total}", printed_rows(series, OF_FRICTION))
-        print_table(f"Mean of closed cycles, {total}", printed_rows(series, OF_CYCLE, law=True))
-    if degradation := degradation_rows(found, found.total):
+        print_table(f"Mean of closed cycles, {total}", tables.beside_law(series, (*FRICTION, *LOOP)))
+    if degradation := tables.degradation(found.total):
         print_table("Each cycle against the first and the third one of its series", degradation)
-    if standards := standard_rows(found):
+    if standards := tables.standards():
         print_table("As standards name them", standards)
     for one in found.not_held:
         say(f"{one.standard}: {one.words}")

@@ -55,7 +55,9 @@ def _draw_loop(axes: Axes, found: BearingReport, one: RunLoops, loop: Loop) -> N
     wanted = one.pads if loop.bearing == SUM else (loop.bearing,)
     if law is not None and set(wanted) <= set(law.pads):
         said = law.force[:, [law.pads.index(pad) for pad in wanted], 0].sum(axis=1)
-        axes.plot(slip, factor * said, color=_LAW, linewidth=0.8, rasterized=long, label="fitted law")
+        axes.plot(
+            slip, factor * said, color=_LAW, linewidth=0.9, linestyle=(0, (4, 3)), rasterized=long, label="fitted law"
+        )
     name = "sum of the pads" if loop.bearing == SUM else f"pad {loop.bearing}"
     axes.set_title(f"{one.run}: {name}", fontsize=9.0)
     axes.set(xlabel="slip [mm]", ylabel=f"force [{unit}]")

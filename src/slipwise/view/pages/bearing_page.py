@@ -3,21 +3,16 @@
 from collections.abc import Sequence
 from typing import Any
 
-from slipwise.bearings.loops import SUM
+import numpy as np
+
 from slipwise.bearings.result import CYCLE, MEAN, RUN, BearingReport, BearingRow
 from slipwise.view.figures.bearing_figures import degradation_figure, drawn_runs, friction_figure, loops_figure
 from slipwise.view.pages.html import Html, Section, bullets, callout, details, figure, page, paragraph, table, verdict
-from slipwise.view.words.bearing_tables import (
-    OF_CYCLE,
-    OF_FRICTION,
-    OF_RUN,
-    degradation_rows,
-    in_shown_unit,
-    printed_rows,
-    standard_rows,
-)
+from slipwise.view.words.bearing_tables import FRICTION, LOOP, OF_RUN, BearingTables, name_of_total
 from slipwise.view.words.numbers import counted
 
+_ALSO_OF_RUN = ("way", "displacement_max", "displacement_min")
+_OF_RUN_BY_LAW = ("friction_mean", "friction_breakaway", "friction_peak_speed", "energy")
 _DEFINITIONS = (
     "A cycle runs from one zero crossing of slip to the next in the direction in which the run began. It counts as "
     "closed where it goes equally far to both sides, there and back. Cycles of one stroke in a run are a series.",
@@ -39,46 +34,50 @@ _DEFINITIONS = (
 
 def bearing_page(found: BearingReport) -> str:
     """Make the bearing report: the text of one HTML file that needs nothing else."""
+    tables = BearingTables(found)
     sections = [
         Section("Loops", _loops(found)),
-        Section("Cycles: energy, stiffness, damping, strength", _cycles(found)),
-        Section("Coefficient of friction", _friction(found)),
-        Section("Whole runs", _runs(found)),
-        Section("Degradation over cycles", _degradation(found)),
-        Section("Property modification factors and bounds", _standards(found)),
+        Section("Cycles: energy, stiffness, damping, strength", _cycles(tables)),
+        Section("Coefficient of friction", _friction(tables)),
+        Section("Whole runs", _runs(tables)),
+        Section("Degradation over cycles", _degradation(tables)),
+        Section("Property modification factors and bounds", _standards(tables)),
         Section("What the standards ask and this test does not hold", _not_held(found)),
         Section("How the quantities are defined", [bullets(_DEFINITIONS)]),
         Section("What was done, and what could not be given", _about(found)),
     ]
-    return page(f"{found.campaign}: bearing report", sections, _summary(found))
+    return page(f"{found.campaign}: bearing report", sections, _summary(tables))
 
 
-def _summary(found: BearingReport) -> list[Any]:
-    series = found.of(MEAN, found.total)
+def _summary(tables: BearingTables) -> list[Any]:
+    found = tables.found
     first = [callout("Before anything was measured", f"{one.words}.", "warn") for one in found.corrections]
-    name = "Sum of the pads" if found.total == SUM else f"Pad {found.total}"
-    if not series:
+    name = name_of_total(found)
+    name = name[0].upper() + name[1:]
+    if not (series := found.of(MEAN, found.total)):
         runs = found.of(RUN, found.total)
         facts = {f"mean coefficient, {row.run}": row.values["friction_mean"].measured for row in runs[:4]}
         words = "No run is a cyclic motion, so that only energy and friction of whole runs can be given."
         return [verdict(f"{name}: no closed cycles", words, "warn", facts), *first]
     row = max(series, key=lambda one: (_count(found, one) > 1, one.values["displacement_max"].measured))
-    facts = {
-        "mean coefficient of friction": row.values["friction_mean"].measured,
-        "characteristic strength Q_d [kN]": in_shown_unit(
-            "characteristic_strength", _of(row, "characteristic_strength")
-        ),
-        "effective stiffness K_eff [kN/mm]": in_shown_unit("effective_stiffness", _of(row, "effective_stiffness")),
-        "equivalent damping": _of(row, "equivalent_damping"),
-        "energy per cycle [kN cm]": in_shown_unit("energy", _of(row, "energy")),
+    called = {
+        "friction_mean": "mean coefficient of friction",
+        "characteristic_strength": "characteristic strength Q_d",
+        "effective_stiffness": "effective stiffness K_eff",
+        "equivalent_damping": "equivalent damping",
+        "energy": "energy per cycle",
     }
+    facts = {}
+    for key, words in called.items():
+        unit = tables.unit(key).replace("*", " ")
+        facts[words if unit == "1" else f"{words} [{unit}]"] = tables.shown(key, row.values[key].measured)
     half = 0.5e3 * (_of(row, "displacement_max") - _of(row, "displacement_min"))
     words = (
         f"Mean of {counted(_count(found, row), 'closed cycle')} of {row.run} at an amplitude of {half:.3g} mm, a peak "
         f"speed of {1e3 * _of(row, 'peak_speed'):.3g} mm/s"
     )
     pressure = _of(row, "mean_pressure")
-    words += f" and a mean pressure of {1e-6 * pressure:.3g} MPa." if pressure == pressure else "."
+    words += f" and a mean pressure of {1e-6 * pressure:.3g} MPa." if np.isfinite(pressure) else "."
     return [verdict(f"{name}, largest cyclic motion", words, "plain", facts), *first]
 
 
@@ -93,71 +92,75 @@ def _count(found: BearingReport, mean: BearingRow) -> int:
 def _loops(found: BearingReport) -> list[Any]:
     left = len(found.loops) - len(drawn_runs(found))
     caption = (
-        "Friction force against slip. Dark: closed cycles, of which the quantities of a cycle are taken; grey: the rest "
-        "of the run; orange: the fitted law at the same motion."
+        "Friction force against slip. Dark: closed cycles, of which the quantities of a cycle are; grey: the rest "
+        "of the run; dashed: the fitted law at the same motion."
     )
     caption += f" {counted(left, 'more run')} not drawn." if left else ""
     return [figure(loops_figure(found), caption, "Loops of force against slip of every run")]
 
 
-def _cycles(found: BearingReport) -> list[Any]:
-    return _both(found, OF_CYCLE, "Mean of the closed cycles of each series, measured and by the fitted law.")
+def _cycles(tables: BearingTables) -> list[Any]:
+    return _both(tables, LOOP, "Mean of the closed cycles of each series, measured and by the fitted law.")
 
 
-def _friction(found: BearingReport) -> list[Any]:
+def _friction(tables: BearingTables) -> list[Any]:
     pieces: list[Any] = []
-    if any(row.values["friction_mean"].measured == row.values["friction_mean"].measured for row in found.rows):
-        of = "closed cycle" if found.of(CYCLE) else "run"
+    rows = tables.found.rows
+    if any(np.isfinite(_of(row, "friction_mean")) for row in rows):
+        of = "closed cycle" if tables.found.of(CYCLE) else "run"
         caption = (
             f"Coefficient at peak speed over that speed and the pressure then, a dot for each {of}; bars: the law."
         )
-        pieces.append(figure(friction_figure(found), caption, "Coefficient of friction over speed and pressure"))
-    return pieces + _both(found, OF_FRICTION, "Mean of the closed cycles of each series; p: pressure; mu: coefficient.")
+        drawn = friction_figure(tables.found)
+        pieces.append(figure(drawn, caption, "Coefficient of friction over speed and pressure"))
+    return pieces + _both(tables, FRICTION, "Mean of the closed cycles of each series; mu: coefficient; p: pressure.")
 
 
-def _both(found: BearingReport, keys: Sequence[str], words: str) -> list[Any]:
-    """Make the table of the series, and behind a click those of every cycle and pad."""
+def _both(tables: BearingTables, keys: Sequence[str], words: str) -> list[Any]:
+    """Make the table of the series, and behind a click those of every pad and cycle."""
+    found = tables.found
     total, pads = found.of(MEAN, found.total), [r for r in found.of(MEAN) if r.bearing != found.total]
     if not total:
         return [paragraph("No run has closed cycles; see the whole runs below.")]
-    pieces: list[Any] = [paragraph(words), table(printed_rows(total, keys, law=True))]
+    pieces: list[Any] = [paragraph(words), table(tables.beside_law(total, keys))]
     if pads:
-        pieces.append(details("Each pad", [table(printed_rows(pads, keys, law=True))]))
-    pieces.append(details("Every cycle", [table(printed_rows(found.of(CYCLE), keys))]))
+        pieces.append(details("Each pad", [table(tables.beside_law(pads, keys))]))
+    pieces.append(details("Every cycle", [table(tables.short(found.of(CYCLE), keys))]))
     return pieces
 
 
-def _runs(found: BearingReport) -> list[Any]:
+def _runs(tables: BearingTables) -> list[Any]:
+    found = tables.found
     words = "Of any motion, earthquakes too. Breakaway is that of the first movement, where the record begins at rest."
-    pieces: list[Any] = [paragraph(words), table(printed_rows(found.of(RUN, found.total), OF_RUN, law=True))]
-    pads = [r for r in found.of(RUN) if r.bearing != found.total]
+    total, pads = found.of(RUN, found.total), [r for r in found.of(RUN) if r.bearing != found.total]
+    pieces: list[Any] = [paragraph(words), table(tables.short(total, (*OF_RUN, *_ALSO_OF_RUN)))]
     if pads:
-        pieces.append(details("Each pad", [table(printed_rows(pads, OF_RUN, law=True))]))
+        pieces.append(details("Each pad", [table(tables.short(pads, (*OF_RUN, *_ALSO_OF_RUN)))]))
+    beside = tables.beside_law(found.of(RUN), _OF_RUN_BY_LAW)
+    pieces.append(details("Measured and by the fitted law", [table(beside)]))
     return pieces
 
 
-def _degradation(found: BearingReport) -> list[Any]:
-    rows = degradation_rows(found, found.total)
-    if not rows:
+def _degradation(tables: BearingTables) -> list[Any]:
+    if not tables.degradation(tables.found.total):
         return [paragraph("Degradation needs two or more closed cycles of one stroke; this campaign has none.")]
     caption = "Energy and characteristic strength of each cycle over those of the first cycle of the same stroke."
-    pieces: list[Any] = [figure(degradation_figure(found), caption, "Energy and strength over cycles")]
-    pieces.append(details("Every cycle against the first and the third", [table(degradation_rows(found))]))
+    pieces: list[Any] = [figure(degradation_figure(tables.found), caption, "Energy and strength over cycles")]
+    pieces.append(details("Every cycle against the first and the third", [table(tables.degradation())]))
     return pieces
 
 
-def _standards(found: BearingReport) -> list[Any]:
-    if not found.standards:
+def _standards(tables: BearingTables) -> list[Any]:
+    if not (rows := tables.standards()):
         return [paragraph("No factor can be given without closed cycles or a first movement from rest.")]
     words = (
         "Nominal is the mean of the first three cycles of the cyclic motion that slides furthest. Factors are what "
-        "this test has measured, and no more: those of ageing, contamination and temperature have to be multiplied on top."
+        "this test has measured, and no more: those of ageing, contamination and temperature come on top."
     )
     pieces: list[Any] = [paragraph(words)]
-    rows = standard_rows(found)
     for standard in dict.fromkeys(row["standard"] for row in rows):
-        pieces.append(table([{k: v for k, v in row.items() if k != "standard"} for row in rows
-                             if row["standard"] == standard], caption=standard))  # fmt: skip
+        own = [{k: v for k, v in row.items() if k != "standard"} for row in rows if row["standard"] == standard]
+        pieces.append(table(own, caption=standard))
     return pieces
 
 

@@ -7,10 +7,11 @@ import numpy as np
 
 from slipwise.bearings.quantities import QUANTITIES, Quantity
 from slipwise.bearings.result import CYCLE, MEAN, RUN, BearingReport, BearingRow, QuantityValue
+from slipwise.estimation.intervals import count_figures
 from slipwise.units import convert
 from slipwise.view.words.numbers import usual_unit
 
-#: Short headings of quantities, for tables that must fit a page.
+#: Short headings of quantities.
 _SHORT = {
     "friction_mean": "mu mean",
     "friction_breakaway": "mu breakaway",
@@ -29,127 +30,140 @@ _SHORT = {
     "equivalent_damping": "damping",
 }
 _BY_KEY = {q.key: q for q in QUANTITIES}
-_COEFFICIENTS = ("friction_mean", "friction_breakaway", "breakaway_pressure", "friction_peak_speed", "peak_speed",
-                 "peak_speed_pressure")  # fmt: skip
-OF_RUN = (*_COEFFICIENTS, "energy", "way", "displacement_max", "displacement_min")
-OF_CYCLE = ("energy", "effective_stiffness", "equivalent_damping", "characteristic_strength", "second_slope_stiffness")
-OF_FRICTION = (*_COEFFICIENTS, "mean_pressure")
+FRICTION = ("friction_mean", "friction_breakaway", "breakaway_pressure", "friction_peak_speed", "peak_speed",
+            "peak_speed_pressure")  # fmt: skip
+LOOP = ("energy", "effective_stiffness", "equivalent_damping", "characteristic_strength", "second_slope_stiffness")
+OF_RUN = ("friction_mean", "friction_breakaway", "friction_peak_speed", "peak_speed", "mean_pressure", "energy")
+#: Units of bearings that never carry a kilonewton of friction; of others `usual_unit`, and energy in kN cm.
+_SMALL = {"N": "N", "N/m": "N/mm", "J": "J"}
+_KILONEWTON = 1e3
 
 
-def shown_as(quantity: Quantity) -> str:
-    """Return the unit in which a quantity is read; energy in kN cm."""
-    return "kN*cm" if quantity.unit == "J" else usual_unit(quantity.unit)
+class BearingTables:
+    """Tables of one report, all in the same units.
 
-
-def in_shown_unit(key: str, value: float) -> float:
-    """Return a value [SI] in the unit in which its quantity is read."""
-    known = _BY_KEY[key]
-    return convert(value, known.unit, shown_as(known)) if np.isfinite(value) else value
-
-
-def wide_rows(rows: Sequence[BearingRow]) -> list[dict[str, Any]]:
-    """Return rows with every number in a cell of its own, for CSV and workbooks: measured, law, and its interval."""
-    out = []
-    for row in rows:
-        cells: dict[str, Any] = _about(row)
-        for known in QUANTITIES:
-            if (value := row.values.get(known.key)) is None:
-                continue
-            heading = f"{known.words}{_bracket(known)}"
-            cells[heading] = _cell(known.key, value.measured)
-            if np.isfinite(value.law):
-                cells |= {
-                    f"{heading}, {name}": _cell(known.key, number)
-                    for name, number in (("law", value.law), ("law low", value.low), ("law high", value.high))
-                }
-        out.append(cells)
-    return out
-
-
-def printed_rows(rows: Sequence[BearingRow], keys: Sequence[str], *, law: bool = False) -> list[dict[str, Any]]:
-    """Return rows for a terminal or a page.
-
-    Args:
-        rows: of the report.
-        keys: of the quantities.
-        law: write what the fitted law gives, with its interval, below what was measured.
+    Attributes:
+        found: the report.
+        small: whether forces are read in N, stiffness in N/mm and energy in J.
     """
-    out = []
-    for row in rows:
-        about = {name: value for name, value in _about(row).items() if name not in ("role", "part") and value != ""}
-        said = {"from": "measured"} if law else {}
-        out.append({**about, **said, **{heading(key): _cell(key, row.values[key].measured) for key in keys}})
-        if law and any(np.isfinite(value.law) for value in row.values.values()):
-            other = {heading(key): _with_interval(key, row.values[key]) for key in keys}
-            out.append({**dict.fromkeys(about, ""), "from": "law, 95 %", **other})
-    return out
 
+    def __init__(self, found: BearingReport) -> None:
+        self.found = found
+        largest = max(float(np.abs(loop.force).max()) for one in found.loops for loop in one.loops)
+        self.small = largest < _KILONEWTON
 
-def degradation_rows(found: BearingReport, bearing: str | None = None) -> list[dict[str, Any]]:
-    """Return each cycle against the first and the third one of its series."""
-    return [
-        {
-            "run": d.run,
-            "bearing": d.bearing,
-            "series": d.series,
-            "cycle": d.cycle,
-            "energy / first": d.energy_first,
-            "energy / third": d.energy_third,
-            "Q_d / first": d.strength_first,
-            "Q_d / third": d.strength_third,
+    def unit(self, key: str) -> str:
+        """Return the unit in which a quantity is read."""
+        unit = _BY_KEY[key].unit
+        if self.small and unit in _SMALL:
+            return _SMALL[unit]
+        return "kN*cm" if unit == "J" else usual_unit(unit)
+
+    def shown(self, key: str, value: float) -> float | None:
+        """Return a value [SI] in the unit in which its quantity is read; None where it is not known."""
+        return float(convert(value, _BY_KEY[key].unit, self.unit(key))) if np.isfinite(value) else None
+
+    def heading(self, key: str) -> str:
+        """Return the short heading of a quantity with its unit."""
+        return f"{_SHORT[key]}{self._bracket(_BY_KEY[key])}"
+
+    def wide(self, rows: Sequence[BearingRow]) -> list[dict[str, Any]]:
+        """Return every number in a cell of its own, for CSV and workbooks: measured, law, and the law's interval."""
+        out = []
+        for row in rows:
+            cells: dict[str, Any] = {"run": row.run, "role": row.role, "bearing": row.bearing, "part": row.part}
+            cells |= {"series": row.series or None, "cycle": row.cycle or None}
+            for known in QUANTITIES:
+                if (value := row.values.get(known.key)) is None:
+                    continue
+                heading = f"{known.words}{self._bracket(known)}"
+                cells[heading] = self.shown(known.key, value.measured)
+                if np.isfinite(value.law):
+                    numbers = (("law", value.law), ("law low", value.low), ("law high", value.high))
+                    cells |= {f"{heading}, {name}": self.shown(known.key, number) for name, number in numbers}
+            out.append(cells)
+        return out
+
+    def short(self, rows: Sequence[BearingRow], keys: Sequence[str]) -> list[dict[str, Any]]:
+        """Return one row each, as measured."""
+        several = len({row.bearing for row in rows}) > 1
+        return [
+            {
+                "run": _name(row),
+                **({"pad": row.bearing} if several else {}),
+                **({"cycle": row.cycle} if row.cycle else {}),
+                **{self.heading(key): self.shown(key, row.values[key].measured) for key in keys},
+            }
+            for row in rows
+        ]
+
+    def beside_law(self, rows: Sequence[BearingRow], keys: Sequence[str]) -> list[dict[str, Any]]:
+        """Return one row for each quantity of each row: measured, by the fitted law, and the law's 95 % interval."""
+        several = len({row.bearing for row in rows}) > 1
+        out = []
+        for row in rows:
+            for key in keys:
+                value = row.values[key]
+                between = self._between(key, value)
+                about = {"run": _name(row), **({"pad": row.bearing} if several else {}), "quantity": self.heading(key)}
+                said = {"measured": self.shown(key, value.measured), "law": self.shown(key, value.law)}
+                out.append({**about, **said, "law, 95 %": between})
+        return out
+
+    def degradation(self, bearing: str | None = None) -> list[dict[str, Any]]:
+        """Return each cycle against the first and the third one of its series."""
+        return [
+            {
+                "run": d.run,
+                **({} if bearing else {"pad": d.bearing}),
+                "series": d.series,
+                "cycle": d.cycle,
+                "energy / first": d.energy_first,
+                "energy / third": d.energy_third,
+                "Q_d / first": d.strength_first,
+                "Q_d / third": d.strength_third,
+            }
+            for d in self.found.degradation
+            if bearing in (None, d.bearing)
+        ]
+
+    def standards(self) -> list[dict[str, Any]]:
+        """Return factors, bounds and coefficients as the standards name them."""
+        return [
+            {"standard": s.standard, "name": s.name, "of": s.quantity, "value": s.value, "measured on": s.basis}
+            for s in self.found.standards
+        ]
+
+    def sheets(self) -> Mapping[str, list[dict[str, Any]]]:
+        """Return the sheets of bearing.xlsx: name -> rows."""
+        found = self.found
+        lacking = [{"standard": one.standard, "not held by this test": one.words} for one in found.not_held]
+        return {
+            "Runs": self.wide(found.of(RUN)),
+            "Series of cycles": self.wide(found.of(MEAN)),
+            "Cycles": self.wide(found.of(CYCLE)),
+            "Degradation": self.degradation(),
+            "Standards": self.standards(),
+            "Not held": [*lacking, *({"not held by this test": words} for words in found.cannot)],
         }
-        for d in found.degradation
-        if bearing in (None, d.bearing)
-    ]
+
+    def _between(self, key: str, value: QuantityValue) -> str:
+        """Write the interval of a law's quantity, with so many figures that its half width keeps two."""
+        low, high = self.shown(key, value.low), self.shown(key, value.high)
+        if low is None or high is None:
+            return ""
+        figures = count_figures(low, high)
+        return f"{low:.{figures}g} to {high:.{figures}g}"
+
+    def _bracket(self, known: Quantity) -> str:
+        unit = self.unit(known.key)
+        return "" if unit == "1" else f" [{unit.replace('*', ' ')}]"
 
 
-def standard_rows(found: BearingReport) -> list[dict[str, Any]]:
-    """Return factors, bounds and coefficients as the standards name them."""
-    return [
-        {"standard": s.standard, "name": s.name, "of": s.quantity, "value": s.value, "measured on": s.basis}
-        for s in found.standards
-    ]
+def name_of_total(found: BearingReport) -> str:
+    """Return what the bearing that stands for all is called."""
+    return "sum of the pads" if found.total == "sum" else f"pad {found.total}"
 
 
-def not_held_rows(found: BearingReport) -> list[dict[str, Any]]:
-    """Return what standards ask and the test does not hold."""
-    return [{"standard": one.standard, "not held by this test": one.words} for one in found.not_held]
-
-
-def workbook_sheets(found: BearingReport) -> Mapping[str, list[dict[str, Any]]]:
-    """Return the sheets of bearing.xlsx: name -> rows."""
-    return {
-        "Runs": wide_rows(found.of(RUN)),
-        "Series of cycles": wide_rows(found.of(MEAN)),
-        "Cycles": wide_rows(found.of(CYCLE)),
-        "Degradation": degradation_rows(found),
-        "Standards": standard_rows(found),
-        "Not held": [*not_held_rows(found), *({"not held by this test": words} for words in found.cannot)],
-    }
-
-
-def heading(key: str) -> str:
-    """Return the short heading of a quantity with its unit."""
-    return f"{_SHORT[key]}{_bracket(_BY_KEY[key])}"
-
-
-def _bracket(known: Quantity) -> str:
-    unit = shown_as(known)
-    return "" if unit == "1" else f" [{unit.replace('*', ' ')}]"
-
-
-def _about(row: BearingRow) -> dict[str, Any]:
-    about = {"run": row.run, "role": row.role, "bearing": row.bearing, "part": row.part}
-    return about | {"series": row.series or "", "cycle": row.cycle or ""}
-
-
-def _cell(key: str, value: float) -> float | None:
-    return float(in_shown_unit(key, value)) if np.isfinite(value) else None
-
-
-def _with_interval(key: str, value: QuantityValue) -> str:
-    if not np.isfinite(value.law):
-        return ""
-    ends = [value.law, value.low, value.high]
-    law, low, high = (f"{in_shown_unit(key, number):.4g}" for number in ends)
-    return f"{law} ({low} to {high})" if np.isfinite(value.low) else law
+def _name(row: BearingRow) -> str:
+    return f"{row.run}, series {row.series}" if row.series > 1 else row.run
