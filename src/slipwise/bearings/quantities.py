@@ -32,6 +32,7 @@ from slipwise.bearings.sliding_branches import (
     fit_sliding_branches,
     force_at_turn,
     is_in_the_middle,
+    shows_sliding_alone,
 )
 
 
@@ -87,12 +88,11 @@ def measure_cycle(loop: Loop) -> Values:
     up, down = int(np.argmax(loop.slip)), int(np.argmin(loop.slip))
     stroke = float(loop.slip[up] - loop.slip[down])
     strength, slope = fit_sliding_branches(loop)
+    if not shows_sliding_alone(loop):
+        strength, slope = np.full_like(strength, np.nan), np.full_like(slope, np.nan)
     friction = take_restoring_out(loop, slope)
     branches = ((up, down, -1.0), (down, up, 1.0))
     turned = [find_turned_round(loop, a, b, sign * friction[:, 0], float(strength[0])) for a, b, sign in branches]
-    if any(len(samples) == 0 for samples in turned):
-        strength, slope = np.full_like(strength, np.nan), np.full_like(slope, np.nan)
-        friction = take_restoring_out(loop, slope)
     broken = [breakaway(loop, sign * friction, order) for (_, _, sign), order in zip(branches, turned, strict=True)]
     at_ends = [force_at_turn(loop, turn, np.nan_to_num(slope)) for turn in (up, down)]
     energy, stiffness = _energy(loop), (at_ends[0] - at_ends[1]) / stroke

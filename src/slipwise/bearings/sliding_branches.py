@@ -12,8 +12,8 @@ from slipwise.bearings.loops import Loop
 
 #: Part of the stroke over which a branch is fitted, and within which the force at the largest slip is taken [1].
 _MIDDLE, _NEAR_TURN = 0.5, (0.9, 0.99)
-#: Part of the stroke within which friction must have half turned round: the middle then shows sliding alone [1].
-_TURNS_WITHIN = 0.125
+#: Parts of half the stroke, at the ends of the middle half and in the middle; least ratio of the widths there [1].
+_AT_ENDS, _AT_MIDDLE, _AS_WIDE = (0.4, 0.5), (0.0, 0.1), 0.8
 
 
 def fit_sliding_branches(loop: Loop) -> tuple[Array, Array]:
@@ -29,10 +29,25 @@ def is_in_the_middle(loop: Loop) -> Mask:
     return np.abs(loop.slip - middle) <= _MIDDLE * half
 
 
+def shows_sliding_alone(loop: Loop) -> bool:
+    """Return whether the loop is nearly as wide at both ends of the middle half of the stroke as in its middle.
+
+    It is not where friction turns round over so much of the stroke, by elastic parts or play, that branches bend there.
+    """
+    middle, half = _middle(loop)
+    share = np.abs(loop.slip - middle) / half
+    widths = []
+    for low, high in (_AT_ENDS, _AT_MIDDLE):
+        inside = (share >= low) & (share <= high)
+        both = [loop.force[inside & (loop.direction == sign), 0] for sign in (1.0, -1.0)]
+        if any(len(force) == 0 for force in both):
+            return False
+        widths.append(float(both[0].mean() - both[1].mean()))
+    return widths[0] > _AS_WIDE * widths[1] > 0.0
+
+
 def find_turned_round(loop: Loop, turn: int, other: int, size: Array, strength: float) -> NDArray[np.int64]:
     """Return the samples of a branch from where friction has reached half its strength in the new direction.
-
-    None where that takes so much of the stroke that the middle of the branch does not show sliding alone.
 
     Args:
         loop: closed.
@@ -43,11 +58,7 @@ def find_turned_round(loop: Loop, turn: int, other: int, size: Array, strength: 
     """
     order = np.arange(turn, other + 1 if other > turn else len(loop.slip))
     there = size[order] > 0.5 * strength
-    if not there.any():
-        return order[:0]
-    order = order[int(np.argmax(there)) :]
-    late = abs(float(loop.slip[order[0]] - loop.slip[turn])) > _TURNS_WITHIN * float(np.ptp(loop.slip))
-    return order[:0] if late else order
+    return order[int(np.argmax(there)) :] if there.any() else order[:0]
 
 
 def force_at_turn(loop: Loop, turn: int, slope: Array) -> Array:

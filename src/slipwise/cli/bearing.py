@@ -21,7 +21,7 @@ def bearing(
     figures: Figures = False,
     json: Json = False,
 ) -> None:
-    """Report friction, energy, stiffness, damping, degradation and modification factors, as bearing standards name them.
+    """Report friction, energy, stiffness, damping, degradation and modification factors, as standards name them.
 
     By cycle and by run, of each pad and of their sum, from the measured loops and beside them from the fitted law.
 
