@@ -76,7 +76,7 @@ def _of_motions(cyclic: Mapping[str, CycleValues]) -> list[NotHeld]:
     if (count := _count_different(list(strokes.values()))) < _STROKES:
         words = (
             f"{_EACH} fully reversed cycles are asked at each of {_STROKES} amplitudes (0.25, 0.5, 0.67 and 1.0 of the "
-            f"maximum displacement); this test has them at {count or 'none'}"
+            f"maximum displacement); amplitudes with them in this test: {count}"
         )
         out.append(NotHeld(ASCE, words))
     if most < _LONGEST:
@@ -89,7 +89,7 @@ def _of_motions(cyclic: Mapping[str, CycleValues]) -> list[NotHeld]:
     )
     out.append(NotHeld(f"{ASCE}, {EN_ISOLATORS}", words))
     if np.isfinite(list(loads.values())).all() and (count := _count_different(list(loads.values()))) < _LOADS:
-        words = f"tests at the mean, the largest and the smallest vertical load are asked; the cyclic runs have {count}"
+        words = f"the mean, the largest and the smallest vertical load are asked; loads in the cyclic motions: {count}"
         out.append(NotHeld(f"{ASCE}, {EN_ISOLATORS}", words))
     return out
 

@@ -65,13 +65,14 @@ def _tell(found: "sw.BearingReport") -> None:
 
     tables, total = BearingTables(found), name_of_total(found)
     say_corrections(found.corrections)
-    print_table(f"Whole runs, {total}", tables.short(found.of("run", found.total), OF_RUN))
-    if series := found.of("mean of cycles", found.total):
-        print_table(f"Mean of closed cycles, {total}", tables.beside_law(series, (*FRICTION, *LOOP)))
+    print_table(f"Whole runs, {total}", tables.short(found.of("run", found.total), (*OF_RUN[:3], "energy")))
+    series = tables.by_series(found.of("mean of cycles", found.total), (*FRICTION, *LOOP))
+    for name, rows in series.items():
+        print_table(f"{name}, {total}", rows)
     if degradation := tables.degradation(found.total):
         print_table("Each cycle against the first and the third one of its series", degradation)
-    if standards := tables.standards():
-        print_table("As standards name them", standards)
+    for standard, rows in tables.standards().items():
+        print_table(f"As {standard} names them", rows)
     for one in found.not_held:
         say(f"{one.standard}: {one.words}")
     for words in found.cannot:

@@ -24,10 +24,15 @@ def drawn_runs(found: BearingReport) -> list[RunLoops]:
     return sorted(found.loops, key=lambda one: not one.cut.cyclic)[:_MOST]
 
 
-def loops_figure(found: BearingReport) -> Figure:
-    """Draw force against slip of the total in each run, measured and by the law, closed cycles dark."""
+def loops_figure(found: BearingReport, *, narrow: bool = False) -> Figure:
+    """Draw force against slip of the total in each run, measured and by the law, closed cycles dark.
+
+    Args:
+        found: the report.
+        narrow: one below the other, for a phone.
+    """
     runs = drawn_runs(found)
-    columns = min(len(runs), _IN_A_ROW)
+    columns = 1 if narrow else min(len(runs), _IN_A_ROW)
     rows = -(-len(runs) // columns)
     with styled():
         figure = new_figure(3.7 * columns + 0.6, 3.3 * rows + 0.5)

@@ -1,6 +1,6 @@
 """The bearing report: what a laboratory hands in of a bearing, in the words of the standards."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from slipwise.view.pages.html import Html, Section, bullets, callout, details, f
 from slipwise.view.words.bearing_tables import FRICTION, LOOP, OF_RUN, BearingTables, name_of_total
 from slipwise.view.words.numbers import counted
 
-_ALSO_OF_RUN = ("way", "displacement_max", "displacement_min")
+_ALSO_OF_RUN = ("mean_pressure", "way", "displacement_max", "displacement_min")
 _OF_RUN_BY_LAW = ("friction_mean", "friction_breakaway", "friction_peak_speed", "energy")
 _DEFINITIONS = (
     "A cycle runs from one zero crossing of slip to the next in the direction in which the run began. It counts as "
@@ -92,11 +92,12 @@ def _count(found: BearingReport, mean: BearingRow) -> int:
 def _loops(found: BearingReport) -> list[Any]:
     left = len(found.loops) - len(drawn_runs(found))
     caption = (
-        "Friction force against slip. Dark: closed cycles, of which the quantities of a cycle are; grey: the rest "
+        "Friction force against slip. Dark: closed cycles, from which quantities of a cycle are taken; grey: the rest "
         "of the run; dashed: the fitted law at the same motion."
     )
     caption += f" {counted(left, 'more run')} not drawn." if left else ""
-    return [figure(loops_figure(found), caption, "Loops of force against slip of every run")]
+    alternative = "Loops of force against slip of every run"
+    return [figure(loops_figure(found), caption, alternative, narrow=loops_figure(found, narrow=True))]
 
 
 def _cycles(tables: BearingTables) -> list[Any]:
@@ -122,11 +123,15 @@ def _both(tables: BearingTables, keys: Sequence[str], words: str) -> list[Any]:
     total, pads = found.of(MEAN, found.total), [r for r in found.of(MEAN) if r.bearing != found.total]
     if not total:
         return [paragraph("No run has closed cycles; see the whole runs below.")]
-    pieces: list[Any] = [paragraph(words), table(tables.beside_law(total, keys))]
+    pieces: list[Any] = [paragraph(words), *_captioned(tables.by_series(total, keys))]
     if pads:
-        pieces.append(details("Each pad", [table(tables.beside_law(pads, keys))]))
+        pieces.append(details("Each pad", _captioned(tables.by_series(pads, keys))))
     pieces.append(details("Every cycle", [table(tables.short(found.of(CYCLE), keys))]))
     return pieces
+
+
+def _captioned(named: Mapping[str, Sequence[Mapping[str, Any]]]) -> list[Html]:
+    return [table(rows, caption=name) for name, rows in named.items()]
 
 
 def _runs(tables: BearingTables) -> list[Any]:
@@ -136,8 +141,9 @@ def _runs(tables: BearingTables) -> list[Any]:
     pieces: list[Any] = [paragraph(words), table(tables.short(total, (*OF_RUN, *_ALSO_OF_RUN)))]
     if pads:
         pieces.append(details("Each pad", [table(tables.short(pads, (*OF_RUN, *_ALSO_OF_RUN)))]))
-    beside = tables.beside_law(found.of(RUN), _OF_RUN_BY_LAW)
-    pieces.append(details("Measured and by the fitted law", [table(beside)]))
+    pieces.append(
+        details("Measured and by the fitted law", _captioned(tables.by_series(found.of(RUN), _OF_RUN_BY_LAW)))
+    )
     return pieces
 
 
@@ -158,10 +164,7 @@ def _standards(tables: BearingTables) -> list[Any]:
         "this test has measured, and no more: those of ageing, contamination and temperature come on top."
     )
     pieces: list[Any] = [paragraph(words)]
-    for standard in dict.fromkeys(row["standard"] for row in rows):
-        own = [{k: v for k, v in row.items() if k != "standard"} for row in rows if row["standard"] == standard]
-        pieces.append(table(own, caption=standard))
-    return pieces
+    return [*pieces, *(table(own, caption=standard) for standard, own in rows.items())]
 
 
 def _not_held(found: BearingReport) -> list[Any]:

@@ -9,7 +9,7 @@ from slipwise.bearings.quantities import QUANTITIES, Quantity
 from slipwise.bearings.result import CYCLE, MEAN, RUN, BearingReport, BearingRow, QuantityValue
 from slipwise.estimation.intervals import count_figures
 from slipwise.units import convert
-from slipwise.view.words.numbers import usual_unit
+from slipwise.view.words.numbers import counted, usual_unit
 
 #: Short headings of quantities.
 _SHORT = {
@@ -33,7 +33,7 @@ _BY_KEY = {q.key: q for q in QUANTITIES}
 FRICTION = ("friction_mean", "friction_breakaway", "breakaway_pressure", "friction_peak_speed", "peak_speed",
             "peak_speed_pressure")  # fmt: skip
 LOOP = ("energy", "effective_stiffness", "equivalent_damping", "characteristic_strength", "second_slope_stiffness")
-OF_RUN = ("friction_mean", "friction_breakaway", "friction_peak_speed", "peak_speed", "mean_pressure", "energy")
+OF_RUN = ("friction_mean", "friction_breakaway", "friction_peak_speed", "peak_speed", "energy")
 #: Units of bearings that never carry a kilonewton of friction; of others `usual_unit`, and energy in kN cm.
 _SMALL = {"N": "N", "N/m": "N/mm", "J": "J"}
 _KILONEWTON = 1e3
@@ -89,7 +89,7 @@ class BearingTables:
         several = len({row.bearing for row in rows}) > 1
         return [
             {
-                "run": _name(row),
+                "run": self._name(row),
                 **({"pad": row.bearing} if several else {}),
                 **({"cycle": row.cycle} if row.cycle else {}),
                 **{self.heading(key): self.shown(key, row.values[key].measured) for key in keys},
@@ -98,25 +98,30 @@ class BearingTables:
         ]
 
     def beside_law(self, rows: Sequence[BearingRow], keys: Sequence[str]) -> list[dict[str, Any]]:
-        """Return one row for each quantity of each row: measured, by the fitted law, and the law's 95 % interval."""
+        """Return one row for each quantity of each pad: measured, by the fitted law, and the law's 95 % interval."""
         several = len({row.bearing for row in rows}) > 1
         out = []
         for row in rows:
             for key in keys:
                 value = row.values[key]
-                between = self._between(key, value)
-                about = {"run": _name(row), **({"pad": row.bearing} if several else {}), "quantity": self.heading(key)}
-                said = {"measured": self.shown(key, value.measured), "law": self.shown(key, value.law)}
-                out.append({**about, **said, "law, 95 %": between})
+                law, between = self._law(key, value)
+                said = {"measured": self.shown(key, value.measured), "law": law, "law, 95 %": between}
+                out.append({**({"pad": row.bearing} if several else {}), "quantity": self.heading(key), **said})
         return out
+
+    def by_series(self, rows: Sequence[BearingRow], keys: Sequence[str]) -> dict[str, list[dict[str, Any]]]:
+        """Return a table for each run, or series of cycles: its name -> rows as of `beside_law`."""
+        named: dict[str, list[BearingRow]] = {}
+        for row in rows:
+            named.setdefault(self._name(row), []).append(row)
+        return {name: self.beside_law(of, keys) for name, of in named.items()}
 
     def degradation(self, bearing: str | None = None) -> list[dict[str, Any]]:
         """Return each cycle against the first and the third one of its series."""
         return [
             {
-                "run": d.run,
+                "run": d.run if d.series == 1 else f"{d.run}, series {d.series}",
                 **({} if bearing else {"pad": d.bearing}),
-                "series": d.series,
                 "cycle": d.cycle,
                 "energy / first": d.energy_first,
                 "energy / third": d.energy_third,
@@ -127,12 +132,13 @@ class BearingTables:
             if bearing in (None, d.bearing)
         ]
 
-    def standards(self) -> list[dict[str, Any]]:
-        """Return factors, bounds and coefficients as the standards name them."""
-        return [
-            {"standard": s.standard, "name": s.name, "of": s.quantity, "value": s.value, "measured on": s.basis}
-            for s in self.found.standards
-        ]
+    def standards(self) -> dict[str, list[dict[str, Any]]]:
+        """Return factors, bounds and coefficients as each standard names them: standard -> rows."""
+        named: dict[str, list[dict[str, Any]]] = {}
+        for one in self.found.standards:
+            row = {"name": one.name, "of": one.quantity, "value": one.value, "measured on": one.basis}
+            named.setdefault(one.standard, []).append(row)
+        return named
 
     def sheets(self) -> Mapping[str, list[dict[str, Any]]]:
         """Return the sheets of bearing.xlsx: name -> rows."""
@@ -143,17 +149,28 @@ class BearingTables:
             "Series of cycles": self.wide(found.of(MEAN)),
             "Cycles": self.wide(found.of(CYCLE)),
             "Degradation": self.degradation(),
-            "Standards": self.standards(),
+            "Standards": [{"standard": s, **row} for s, rows in self.standards().items() for row in rows],
             "Not held": [*lacking, *({"not held by this test": words} for words in found.cannot)],
         }
 
-    def _between(self, key: str, value: QuantityValue) -> str:
-        """Write the interval of a law's quantity, with so many figures that its half width keeps two."""
-        low, high = self.shown(key, value.low), self.shown(key, value.high)
+    def _law(self, key: str, value: QuantityValue) -> tuple[str, str]:
+        """Write a law's quantity and its interval, with so many figures that the half width keeps two."""
+        law, low, high = (self.shown(key, number) for number in (value.law, value.low, value.high))
+        if law is None:
+            return "", ""
         if low is None or high is None:
-            return ""
+            return f"{law:.4g}", ""
         figures = count_figures(low, high)
-        return f"{low:.{figures}g} to {high:.{figures}g}"
+        return f"{law:.{figures}g}", f"{low:.{figures}g} to {high:.{figures}g}"
+
+    def _name(self, row: BearingRow) -> str:
+        """Return the name of a run; of a series also how many cycles of which amplitude it has."""
+        if row.part != MEAN:
+            return f"{row.run}, series {row.series}" if row.series > 1 else row.run
+        of_series = (row.run, row.bearing, row.series)
+        count = sum((r.run, r.bearing, r.series) == of_series for r in self.found.of(CYCLE))
+        half = 0.5e3 * (row.values["displacement_max"].measured - row.values["displacement_min"].measured)
+        return f"{row.run}: {counted(count, 'cycle')}, ±{half:.3g} mm"
 
     def _bracket(self, known: Quantity) -> str:
         unit = self.unit(known.key)
@@ -163,7 +180,3 @@ class BearingTables:
 def name_of_total(found: BearingReport) -> str:
     """Return what the bearing that stands for all is called."""
     return "sum of the pads" if found.total == "sum" else f"pad {found.total}"
-
-
-def _name(row: BearingRow) -> str:
-    return f"{row.run}, series {row.series}" if row.series > 1 else row.run
