@@ -35,7 +35,7 @@ def write_slider(folder: Path, seed: int) -> dict[str, dict[str, float]]:
         runs += f'[[run]]\nfile = "{name}.csv"\nrole = "fit"\n'
         velocity = np.stack([speed, np.zeros(len(time))], axis=1)
         loop = Loop("A", 0.0, slip, velocity, np.full(len(time), LOAD), AREA, force[:, None])
-        cycles = [measure_cycle(loop.of(c)) for c in find_cycles(slip).cycles if c.reversed]
+        cycles = [measure_cycle(loop.of(c)) for c in find_cycles(slip).cycles if c.closed]
         truth[name] = {key: float(np.mean([c[key] for c in cycles])) for key in JUDGED}
     (folder / "campaign.toml").write_text(f'name = "slider"\nrig = "pad"\n{runs}')
     return truth

@@ -22,7 +22,7 @@ _ONE_SIDED = 0.1
 _UNEVEN = 0.1
 #: Cycles whose strokes differ by no more than this share are one series [1].
 _ONE_STROKE = 0.1
-#: A motion is cyclic where at least this share of the way slid lies in fully reversed cycles [1].
+#: A motion is cyclic where more than this share of the way slid lies in closed cycles [1].
 _CYCLIC = 0.5
 
 
@@ -34,7 +34,7 @@ class Cycle:
         start: place of its first crossing, in samples from the first one; whole or between two samples.
         end: place of the next crossing.
         series: number of the series of fully reversed cycles of one stroke that it belongs to, from 1; 0 where it does
-            not go as far to one side as to the other, there and back, and so closes no loop.
+            not go as far to one side as to the other, there and back, or has no neighbour of its stroke.
     """
 
     start: float
@@ -42,8 +42,8 @@ class Cycle:
     series: int = 0
 
     @property
-    def reversed(self) -> bool:
-        """Whether it is fully reversed."""
+    def closed(self) -> bool:
+        """Whether it is one of a series, of which quantities of a cycle are given."""
         return self.series > 0
 
     def cut(self, values: Array) -> Array:
@@ -60,7 +60,7 @@ class CyclesOfRun:
     Attributes:
         zero: slip at which it is cut [m].
         cycles: one after another; those of an earthquake are no closed loops.
-        cyclic: whether most of the way slid lies in fully reversed cycles.
+        cyclic: whether most of the way slid lies in closed cycles.
     """
 
     zero: float
@@ -94,7 +94,7 @@ def find_cycles(slip: Array) -> CyclesOfRun:
     places = _crossings(away, clear)
     steps = branches(slip) * np.diff(slip)  # noise at rest is no way
     cycles = _number_series([Cycle(a, b) for a, b in pairwise(places)], away, steps)
-    closed = sum(float(steps[int(c.start) : int(np.ceil(c.end))].sum()) for c in cycles if c.reversed)
+    closed = sum(float(steps[int(c.start) : int(np.ceil(c.end))].sum()) for c in cycles if c.closed)
     return CyclesOfRun(zero, cycles, closed > _CYCLIC * float(steps.sum()))
 
 
@@ -134,14 +134,20 @@ def _arrival(away: Array, last: int, clear: float) -> float:
 
 
 def _number_series(cycles: list[Cycle], away: Array, steps: Array) -> tuple[Cycle, ...]:
-    """Return the cycles, those that are fully reversed with the number of their series."""
-    out, series, of_series = [], 0, 0.0
-    for cycle in cycles:
-        stroke = _reversed_stroke(away, steps, cycle)
-        if stroke and abs(stroke - of_series) > _ONE_STROKE * of_series:
-            series, of_series = series + 1, stroke
-        out.append(replace(cycle, series=series) if stroke else cycle)
-    return tuple(out)
+    """Return the cycles, with the number of their series where two or more follow each other at one stroke.
+
+    A run whose only closed cycle is one has that one as its series.
+    """
+    strokes = [_reversed_stroke(away, steps, cycle) for cycle in cycles]
+    groups: list[list[int]] = []
+    for place, stroke in enumerate(strokes):
+        if stroke and groups and abs(stroke - strokes[groups[-1][0]]) <= _ONE_STROKE * strokes[groups[-1][0]]:
+            groups[-1].append(place)
+        elif stroke:
+            groups.append([place])
+    kept = groups if len(groups) == 1 else [group for group in groups if len(group) > 1]
+    number = {place: n for n, group in enumerate(kept, start=1) for place in group}
+    return tuple(replace(cycle, series=number.get(place, 0)) for place, cycle in enumerate(cycles))
 
 
 def _reversed_stroke(away: Array, steps: Array, cycle: Cycle) -> float:

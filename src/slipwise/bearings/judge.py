@@ -16,7 +16,7 @@ from slipwise.bearings.quantities import OF_MOTION, Values, measure_cycle, measu
 from slipwise.bearings.requirements import list_not_held
 from slipwise.bearings.result import CYCLE, MEAN, RUN, BearingReport, BearingRow, QuantityValue
 from slipwise.campaign import Campaign, as_campaign
-from slipwise.errors import InputError
+from slipwise.errors import InputError, SlipwiseError
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
 from slipwise.model.file import as_model
@@ -78,8 +78,8 @@ def _with_loops(campaign: Campaign) -> tuple[Campaign, list[str]]:
     kept = tuple(run for run in campaign.runs if run.name not in lacking)
     if not kept:
         raise InputError(
-            f"campaign {campaign.name}: {'; '.join(dict.fromkeys(lacking.values()))}; no bearing quantity can be given "
-            "without both"
+            f"campaign {campaign.name}: {'; '.join(dict.fromkeys(lacking.values()))}; a bearing quantity needs both "
+            "slip and a friction force"
         )
     return replace(campaign, runs=kept), [f"{name}: {words}" for name, words in lacking.items()]
 
@@ -87,9 +87,11 @@ def _with_loops(campaign: Campaign) -> tuple[Campaign, list[str]]:
 def _fit_law(prepared: Prepared, model: Model | Path | str | None) -> tuple[str, Mapping[str, LawForces], list[str]]:
     """Return the law's name, its forces in every run, and why there are none."""
     start = None if model is None else as_model(model)
+    if not prepared.campaign.with_role("fit", "repeat"):
+        return "", {}, ["quantities of a fitted law: every run is held out (role holdout), and none may be fitted"]
     try:
         base = fit_prepared(prepared, start, finely=True)
-    except InputError as error:
+    except SlipwiseError as error:
         return "", {}, [f"quantities of a fitted law: {error}"]
     forces = predict_forces(base, prepared.uncut, prepared.unjudged)
     fitted = base.objective.model(base.solution.values)
@@ -99,7 +101,7 @@ def _fit_law(prepared: Prepared, model: Model | Path | str | None) -> tuple[str,
 def _rows_of(one: RunLoops, law: LawForces | None) -> list[BearingRow]:
     """Return the rows of a run: whole, by cycle, and the mean of each series of cycles, of every bearing."""
     out = []
-    closed = [c for c in one.cut.cycles if one.cut.cyclic and c.reversed]
+    closed = [c for c in one.cut.cycles if one.cut.cyclic and c.closed]
     for loop in one.loops:
         said = _said(loop, one, law)
         out.append(_row(one, loop, (RUN, 0, 0), measure_run(loop), None if said is None else measure_run(said)))
@@ -182,8 +184,8 @@ def _about_cycles(loops: Sequence[RunLoops], rows: Sequence[BearingRow]) -> list
     out, other = [], [one.run for one in loops if not one.cut.cyclic]
     if other:
         out.append(
-            f"{', '.join(other)}: cycle quantities need a cyclic motion, of fully reversed cycles; energy and friction "
-            "of the whole run are given"
+            f"{', '.join(other)}: cycle quantities need a cyclic motion, most of it fully reversed cycles of one "
+            "stroke; energy and friction of the whole run are given"
         )
     single = [one.run for one in loops if one.cut.cyclic and len(one.cut.longest_series) == 1]
     if single:
@@ -196,11 +198,11 @@ def _about_cycles(loops: Sequence[RunLoops], rows: Sequence[BearingRow]) -> list
             "stroke that no part of it shows sliding alone"
         )
     for one in loops:
-        left = sum(not c.reversed for c in one.cut.cycles)
+        left = sum(not c.closed for c in one.cut.cycles)
         if one.cut.cyclic and left:
             out.append(
-                f"{one.run}: {left} of {len(one.cut.cycles)} cycles are not fully reversed, at the start or the end or "
-                "between two amplitudes, and are left out"
+                f"{one.run}: {left} of {len(one.cut.cycles)} cycles are not fully reversed or have no neighbour of "
+                "their stroke, and are left out"
             )
     return out
 

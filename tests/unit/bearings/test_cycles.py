@@ -35,7 +35,7 @@ def test_a_gauge_whose_zero_is_an_end_of_the_stroke_is_cut_at_the_middle():
     time, _ = motion()
     found = find_cycles(AMPLITUDE * (1.0 - np.cos(2.0 * np.pi * time)))
     assert found.zero == pytest.approx(AMPLITUDE, rel=1e-3)
-    assert sum(c.reversed for c in found.cycles) == 3 and found.cyclic
+    assert sum(c.closed for c in found.cycles) == 3 and found.cyclic
 
 
 def test_each_stroke_is_a_series_of_its_own():
@@ -56,3 +56,9 @@ def test_an_earthquake_is_no_cyclic_motion():
 def test_slip_that_never_comes_back_has_no_cycle():
     assert not find_cycles(np.linspace(0.0, 1.0, 100)).cycles
     assert not find_cycles(np.zeros(100)).cycles
+
+
+def test_a_cycle_without_a_neighbour_of_its_stroke_is_no_series_but_a_single_one_is():
+    time, slip = motion()
+    assert [c.series for c in find_cycles(slip * np.where(time < 1.0, 0.5, 1.0)).cycles] == [0, 1, 1, 1]
+    assert [c.series for c in find_cycles(slip[time <= 1.0]).cycles] == [1]

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import slipwise.rig
 from slipwise.bearings.judge import judge_bearing
 from slipwise.bearings.result import CYCLE, MEAN, RUN
 from slipwise.errors import InputError
@@ -105,3 +106,38 @@ def test_an_earthquake_has_energy_and_friction_and_no_cycles(tmp_path):
     found = judge_bearing(write(tmp_path, one=(table, HEADER)))
     assert not found.of(CYCLE) and found.of(RUN)[0].values["friction_mean"].measured == pytest.approx(0.12, rel=0.02)
     assert any("need a cyclic motion" in words for words in found.cannot)
+
+
+def test_runs_that_are_all_held_out_are_measured_and_not_fitted(tmp_path):
+    folder = write(tmp_path, one=(slider(1, 800), HEADER))
+    toml = folder / "campaign.toml"
+    toml.write_text(toml.read_text().replace('"fit"', '"holdout"'))
+    found = judge_bearing(folder)
+    assert found.of(MEAN) and np.isnan(found.of(MEAN)[0].values["energy"].law)
+    assert any("every run is held out" in words for words in found.cannot)
+
+
+def test_energy_of_the_sum_is_that_of_the_pads_together(short_girder):
+    for run in {row.run for row in short_girder.rows}:
+        (total,) = (row for row in short_girder.of(RUN, "sum") if row.run == run)
+        pads = [row for row in short_girder.of(RUN) if row.run == run and row.bearing != "sum"]
+        assert len(pads) == 4
+        together = sum(row.values["energy"].measured for row in pads)
+        assert total.values["energy"].measured == pytest.approx(together, rel=1e-3)
+
+
+def test_earthquakes_of_a_girder_are_no_cyclic_motion_and_its_sine_is(short_girder):
+    cyclic = {row.run for row in short_girder.of(CYCLE)}
+    assert cyclic == {"sine_hv"}
+
+
+def test_a_report_shows_itself_as_a_line_a_table_and_a_picture(short_girder):
+    assert repr(short_girder).startswith("<BearingReport: demo: ")
+    assert "<table>" in short_girder._repr_html_()
+    assert len(short_girder.plot().axes) == 6  # five runs in two rows
+
+
+@pytest.fixture(scope="module")
+def short_girder():
+    """Judge the campaign that the package brings along."""
+    return judge_bearing(Path(slipwise.rig.__file__).parents[1] / "demo_data")

@@ -41,4 +41,4 @@ def test_the_page_and_the_terminal_name_what_the_standards_name(report):
     page = (out / "bearing.html").read_text()
     for words in ("lambda_test,max", "Q_d", "K_eff", "UBDP", "dynamic coefficient"):
         assert words in page
-    assert "Mean of closed cycles, pad A" in said and "ageing and environment" in said
+    assert "Whole runs, pad A" in said and "K_eff [kN/mm]" in said and "ageing and environment" in said

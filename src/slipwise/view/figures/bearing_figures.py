@@ -52,7 +52,7 @@ def _draw_loop(axes: Axes, found: BearingReport, one: RunLoops, loop: Loop) -> N
     zero_lines(axes)
     slip, long = 1e3 * loop.slip, len(loop.slip) > _VECTOR_POINTS
     axes.plot(slip, factor * loop.force[:, 0], color="#c9d0d8", linewidth=0.8, rasterized=long, label="whole run")
-    for number, cycle in enumerate(c for c in one.cut.cycles if one.cut.cyclic and c.reversed):
+    for number, cycle in enumerate(c for c in one.cut.cycles if one.cut.cyclic and c.closed):
         part = loop.of(cycle)
         label = None if number else "closed cycles"
         axes.plot(1e3 * part.slip, factor * part.force[:, 0], color=_MEASURED, linewidth=1.0, label=label)

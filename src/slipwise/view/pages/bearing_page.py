@@ -15,7 +15,7 @@ _ALSO_OF_RUN = ("mean_pressure", "way", "displacement_max", "displacement_min")
 _OF_RUN_BY_LAW = ("friction_mean", "friction_breakaway", "friction_peak_speed", "energy")
 _DEFINITIONS = (
     "A cycle runs from one zero crossing of slip to the next in the direction in which the run began. It counts as "
-    "closed where it goes equally far to both sides, there and back. Cycles of one stroke in a run are a series.",
+    "closed where it goes equally far to both sides, there and back, beside another of its stroke. Such are a series.",
     "Energy: the closed integral of force over slip.",
     "Mean coefficient of friction: energy over the integral of load over the way slid. At one instant: force without "
     "its restoring part, over load, mean of both directions of sliding.",
