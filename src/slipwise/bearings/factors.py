@@ -153,9 +153,12 @@ def _test_factors(cycles: CycleValues, key: str) -> dict[str, float] | None:
         half = 0.5 * np.mean([c["displacement_max"] - c["displacement_min"] for c in cycles])
         if abs(nominal) * half < _NO_SLOPE * abs(_nominal(cycles, "characteristic_strength")):
             return None
-    over = [c[key] / nominal for c in cycles]
+    over = [c[key] / nominal for c in cycles if np.isfinite(c[key])]
+    if min(over) <= 0.0:  # a slope that is there has one sign
+        return None
     return {"max": max(over), "min": min(over)}
 
 
 def _nominal(cycles: CycleValues, key: str) -> float:
-    return float(np.mean([c[key] for c in cycles[:NOMINAL_CYCLES]]))
+    known = [c[key] for c in cycles[:NOMINAL_CYCLES] if np.isfinite(c[key])]
+    return float(np.mean(known)) if known else float("nan")

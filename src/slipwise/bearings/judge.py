@@ -25,6 +25,11 @@ from slipwise.preparation.prepared import Prepared, fit_prepared
 
 #: A cycle of which more than this share of the samples of its force are no measurement is left out [1].
 _BRIDGED = 0.05
+#: Why ratios of a slope are not given.
+_NO_SLOPE = (
+    "modification factors of the post-sliding stiffness K_d: over the stroke it adds less than a tenth of Q_d, changes "
+    "sign from cycle to cycle, or there is one cycle only"
+)
 
 
 @one_thread_algebra()
@@ -127,7 +132,13 @@ def _said(loop: Loop, one: RunLoops, law: LawForces | None) -> Loop | None:
 
 
 def _mean(cycles: Sequence[Values]) -> Values:
-    return {key: np.mean([cycle[key] for cycle in cycles], axis=0) for key in cycles[0]}
+    """Return the means over the cycles in which each quantity is known."""
+    out = {}
+    for key in cycles[0]:
+        values = np.stack([cycle[key] for cycle in cycles])
+        known = np.isfinite(values[:, 0])
+        out[key] = values[known].mean(axis=0) if known.any() else values[0]
+    return out
 
 
 def _row(one: RunLoops, loop: Loop, place: tuple[str, int, int], own: Values, law: Values | None) -> BearingRow:
@@ -156,21 +167,36 @@ def _report(
     reference = choose_reference(named) if named else ""
     pads = {b: c for (run, b, n), c in measured.items() if b != SUM and _name((run, n), cyclic) == reference}
     whole = [row for row in rows if row.part == RUN and row.bearing == total]
+    way = sum(row.values["way"].measured for row in whole)
     first = {row.run: row.values["friction_breakaway"].measured for row in whole}
+    standards = list_factors(named, pads, {run: mu for run, mu in first.items() if np.isfinite(mu)})
+    flat = "" if not named or any("K_d" in one.quantity for one in standards) else _NO_SLOPE
     return BearingReport(
         campaign=prepared.campaign.name,
         rig=prepared.campaign.rig,
         law="",
         rows=rows,
         degradation=tuple(d for place, cycles in measured.items() for d in follow_degradation(*place, cycles)),
-        standards=tuple(list_factors(named, pads, {run: mu for run, mu in first.items() if np.isfinite(mu)})),
-        not_held=tuple(list_not_held(prepared.campaign, named, sum(row.values["way"].measured for row in whole))),
-        cannot=tuple(cannot),
+        standards=tuple(standards),
+        not_held=tuple(list_not_held(prepared.campaign, named, way, _load_swing(loops, total))),
+        cannot=(*cannot, *filter(None, [flat])),
         corrections=prepared.corrections,
         loops=tuple(loops),
         forces={},
         seconds=0.0,
     )
+
+
+def _load_swing(loops: Sequence[RunLoops], total: str) -> float:
+    """Return the largest deviation of the load from its mean within closed cycles, over that mean [1]; 0 without."""
+    swings = [0.0]
+    for one in loops:
+        for loop in one.loops:
+            for cycle in one.cut.cycles:
+                if loop.bearing == total and one.cut.cyclic and cycle.closed and np.isfinite(loop.load).all():
+                    load = cycle.cut(loop.load)
+                    swings.append(float(np.abs(load / load.mean() - 1.0).max()))
+    return max(swings)
 
 
 def _name(place: tuple[str, int], cyclic: Collection[tuple[str, int]]) -> str:

@@ -15,6 +15,8 @@ from slipwise.rig.similarity import LENGTH_SCALE
 
 #: Strokes, and loads, that differ by more than this share are two [1].
 _DIFFERS = 0.1
+#: A load that deviates from its mean by no more than this share is held [1].
+_HELD = 0.1
 #: Cycles in a row of each stroke, strokes, cycles in a row of the longest test, and loads that ASCE/SEI 7 asks.
 _EACH, _STROKES, _LONGEST, _LOADS = 3, 4, 10, 3
 #: Way of the long-term friction test of EN 1337-2 [m].
@@ -34,15 +36,24 @@ class NotHeld:
     words: str
 
 
-def list_not_held(campaign: Campaign, cyclic: Mapping[str, CycleValues], way: float) -> list[NotHeld]:
+def list_not_held(
+    campaign: Campaign, cyclic: Mapping[str, CycleValues], way: float, load_swing: float
+) -> list[NotHeld]:
     """Return what the test does not hold.
 
     Args:
         campaign: that was tested.
         cyclic: name of a series -> its cycles, of the sum of the pads or of the only pad.
         way: slid in all runs together [m].
+        load_swing: largest deviation of the load from its mean within closed cycles, over that mean [1].
     """
     out = _of_motions(cyclic) if cyclic else []
+    if load_swing > _HELD:
+        words = (
+            f"the vertical load is to be held in a cyclic test; it varied by up to {100.0 * load_swing:.0f} % of its "
+            "mean within cycles, and energy, Q_d and K_d of single cycles vary with it"
+        )
+        out.append(NotHeld(f"{ASCE}, {EN_ISOLATORS}", words))
     known = any(
         name.startswith("pad_") and name.endswith("_T") for run in campaign.runs for name in run.record.channels
     )

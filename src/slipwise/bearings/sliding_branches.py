@@ -36,11 +36,13 @@ def shows_sliding_alone(loop: Loop) -> bool:
     """
     middle, half = _middle(loop)
     share = np.abs(loop.slip - middle) / half
+    carried = np.isfinite(loop.load).all() and bool(np.all(loop.load > 0.0))
+    force = loop.force[:, 0] / (loop.load if carried else 1.0)  # a load that varies makes friction vary with it
     widths = []
     for low, high in (_AT_ENDS, _AT_MIDDLE):
         inside = (share >= low) & (share <= high)
-        both = [loop.force[inside & (loop.direction == sign), 0] for sign in (1.0, -1.0)]
-        if any(len(force) == 0 for force in both):
+        both = [force[inside & (loop.direction == sign)] for sign in (1.0, -1.0)]
+        if any(len(one) == 0 for one in both):
             return False
         widths.append(float(both[0].mean() - both[1].mean()))
     return widths[0] > _AS_WIDE * widths[1] > 0.0
