@@ -216,12 +216,17 @@ def _about_cycles(loops: Sequence[RunLoops], rows: Sequence[BearingRow]) -> list
     single = [one.run for one in loops if one.cut.cyclic and len(one.cut.longest_series) == 1]
     if single:
         out.append(f"{', '.join(single)}: there is one closed cycle of a stroke; degradation needs two or more")
-    strengths = [(r.run, r.values["characteristic_strength"].measured) for r in rows if r.part == CYCLE]
-    slow = dict.fromkeys(run for run, strength in strengths if np.isnan(strength))
+    cycles = [row for row in rows if row.part == CYCLE]
+    slow = _runs_without("characteristic_strength", cycles)
     if slow:
         out.append(
             f"{', '.join(slow)}: Q_d, K_d and breakaway of some cycles, where friction turns round over so much of the "
             "stroke that no part of it shows sliding alone"
+        )
+    loaded = [row for row in cycles if row.run not in slow and np.isfinite(row.values["friction_mean"].measured)]
+    if stopped := _runs_without("friction_breakaway", loaded):
+        out.append(
+            f"{', '.join(stopped)}: breakaway of cycles that reach a rim or a stop, which pushes back at the turns"
         )
     for one in loops:
         left = sum(not c.closed for c in one.cut.cycles)
@@ -231,6 +236,10 @@ def _about_cycles(loops: Sequence[RunLoops], rows: Sequence[BearingRow]) -> list
                 "their stroke, and are left out"
             )
     return out
+
+
+def _runs_without(key: str, rows: Sequence[BearingRow]) -> list[str]:
+    return list(dict.fromkeys(row.run for row in rows if np.isnan(row.values[key].measured)))
 
 
 def _about_loads(loops: Sequence[RunLoops]) -> list[str]:

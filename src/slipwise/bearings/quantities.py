@@ -73,6 +73,8 @@ QUANTITIES: tuple[Quantity, ...] = (
 #: Those that the motion alone decides: a law says nothing of them.
 OF_MOTION = frozenset({"peak_speed", "way", "displacement_max", "displacement_min", "mean_pressure",
                        "peak_speed_pressure", "breakaway_pressure"})  # fmt: skip
+#: Force at the largest slip over that of the sliding branches there: beyond this a rim or a stop was reached [1].
+_STOPPED = 1.25
 Values = dict[str, NDArray[Any]]
 
 
@@ -93,8 +95,11 @@ def measure_cycle(loop: Loop) -> Values:
     friction = take_restoring_out(loop, slope)
     branches = ((up, down, -1.0), (down, up, 1.0))
     turned = [find_turned_round(loop, a, b, sign * friction[:, 0], float(strength[0])) for a, b, sign in branches]
-    broken = [breakaway(loop, sign * friction, order) for (_, _, sign), order in zip(branches, turned, strict=True)]
     at_ends = [force_at_turn(loop, turn, np.nan_to_num(slope)) for turn in (up, down)]
+    if 0.5 * (at_ends[0][0] - at_ends[1][0]) > _STOPPED * (strength[0] + slope[0] * 0.5 * stroke):
+        # a stop pushes back at the turns, and what of the force is friction there is not known
+        turned = [samples[:0] for samples in turned]
+    broken = [breakaway(loop, sign * friction, order) for (_, _, sign), order in zip(branches, turned, strict=True)]
     energy, stiffness = _energy(loop), (at_ends[0] - at_ends[1]) / stroke
     middle = is_in_the_middle(loop)
     fastest = is_fastest(loop, middle & (loop.direction > 0)) | is_fastest(loop, middle & (loop.direction < 0))

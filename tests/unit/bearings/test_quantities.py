@@ -70,6 +70,14 @@ def test_a_loop_that_is_elastic_over_most_of_its_stroke_has_no_characteristic_st
     assert found["energy"][0] == pytest.approx(4.0 * STRENGTH * 0.4 * AMPLITUDE, rel=WITHIN)
 
 
+def test_breakaway_is_not_given_where_a_stop_pushes_back_at_the_turns():
+    time, slip = motion()
+    stop = 10.0 * STRENGTH / AMPLITUDE * np.sign(slip) * np.maximum(np.abs(slip) - 0.8 * AMPLITUDE, 0.0)
+    found = measure_cycle(loop_of(time, slip, friction("coulomb", slip) + stop).of(find_cycles(slip).cycles[2]))
+    assert np.isnan(found["friction_breakaway"][0])
+    assert found["characteristic_strength"][0] == pytest.approx(STRENGTH, rel=WITHIN)
+
+
 def test_a_run_that_begins_at_rest_shows_the_coefficient_of_its_first_movement():
     time, slip = motion()
     rest = 200
