@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from typing import Any
 
     from slipwise import channels, effects, motion, rig, workbench
+    from slipwise.bearings.judge import judge_bearing as bearing
+    from slipwise.bearings.result import BearingReport
     from slipwise.campaign import Campaign, load_campaign
     from slipwise.campaign.draft import init_campaign
     from slipwise.comparison.compare import compare
@@ -70,6 +72,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "load_campaign": ("campaign", "load_campaign"),
     "audit": ("instruments.checks", "check_instruments"),
     "corrected_campaign": ("instruments.checks", "corrected_campaign"),
+    "bearing": ("bearings.judge", "judge_bearing"),
     "compare": ("comparison.compare", "compare"),
     "add_law": ("discovery.discover", "add_law"),
     "diagnose": ("discovery.discover", "diagnose_with_law"),
@@ -82,6 +85,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "write_record": ("record", "write_record"),
     "quantity": ("units", "quantity"),
     "AuditReport": ("instruments.report", "AuditReport"),
+    "BearingReport": ("bearings.result", "BearingReport"),
     "Campaign": ("campaign", "Campaign"),
     "Checks": ("instruments.checks", "Checks"),
     "Comparison": ("comparison.result", "Comparison"),
@@ -112,6 +116,7 @@ _PLACES: dict[str, tuple[str, str]] = {
 
 __all__ = [
     "AuditReport",
+    "BearingReport",
     "Campaign",
     "Checks",
     "Comparison",
@@ -135,6 +140,7 @@ __all__ = [
     "add_law",
     "audit",
     "base_model",
+    "bearing",
     "campaigns",
     "channels",
     "compare",

@@ -70,8 +70,7 @@ class Interval:
     @property
     def figures(self) -> int:
         """Figures to write it with: four, or so many that its half width keeps two and does not shrink to nothing."""
-        half, size = 0.5 * (self.high - self.low), max(abs(self.low), abs(self.high))
-        return max(4, int(np.ceil(np.log10(size / half))) + 2) if np.isfinite(half) and half > 0.0 else 4
+        return count_figures(self.low, self.high)
 
 
 @dataclass(frozen=True)
@@ -97,6 +96,12 @@ class Intervals:
         i, j = np.triu_indices(len(self.keys), 1)
         order = np.argsort(-np.abs(self.correlation[i, j]))[:count]
         return [(self.keys[i[o]], self.keys[j[o]], float(self.correlation[i[o], j[o]])) for o in order]
+
+
+def count_figures(low: float, high: float) -> int:
+    """Return the figures with which to write an interval: four, or so many that its half width keeps two."""
+    half, size = 0.5 * (high - low), max(abs(low), abs(high))
+    return max(4, int(np.ceil(np.log10(size / half))) + 2) if np.isfinite(half) and half > 0.0 else 4
 
 
 def compute_intervals(base: BaseFit) -> Intervals:
