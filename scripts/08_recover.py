@@ -19,9 +19,6 @@ from typing import Any
 import numpy as np
 
 from slipwise.campaign import Campaign, Logger, Run
-from slipwise.diagnosis.candidates import list_candidates
-from slipwise.diagnosis.initial_grid import strengths
-from slipwise.diagnosis.screening import screen
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit, fit_base, refine_base_fit
 from slipwise.estimation.intervals import Intervals, compute_intervals
@@ -30,6 +27,9 @@ from slipwise.model import EffectUse, Model, base_model
 from slipwise.motion import load_motion
 from slipwise.record import Record, write_json
 from slipwise.relations.parameters import Term
+from slipwise.selection.candidates import list_candidates
+from slipwise.selection.explained_alone import explain_alone
+from slipwise.selection.initial_grid import strengths
 from slipwise.signals.filters import LowPass, lowpass
 from slipwise.simulation.replay import replay
 
@@ -96,7 +96,7 @@ def recover(term: Term, rng: np.random.Generator, motions: dict[str, str]) -> di
     known = compute_intervals(fitted)
     found = {i.key: i for i in known.entries}
     plain = fit_base(campaign)
-    hidden = next((s.absorbed for s in screen(plain, [term])), float("nan"))
+    hidden = next((s.absorbed for s in explain_alone(plain, [term])), float("nan"))
     rows = {}
     for p in strengths(term.effect):
         for key in (f"{entry.label}.{p.name}" for entry in uses):

@@ -1,6 +1,6 @@
-"""Write the pages of the documentation that come from elsewhere: effects, validation, command line.
+"""Write the pages of the documentation that come from elsewhere: effects, validation, thresholds, command line.
 
-    python scripts/make_docs.py            writes the table of effects and the page of validation, which are committed
+    python scripts/make_docs.py            writes the pages that are committed: effects, validation, thresholds
     python scripts/make_docs.py --check    writes nothing; exit 1 if one of them is not current
 
 A page for every effect with its picture, and the page of the command line, are made by `mkdocs build`.
@@ -27,11 +27,26 @@ from slipwise.view.figures.style import styled
 from slipwise.view.words.effects import effect_rows, effects_table
 
 DOCS = Path(__file__).parents[1] / "docs"
+TESTS = DOCS.parent / "tests"
 _MADE = "<!-- made by scripts/make_docs.py -->\n\n"
 #: What an effect adds counts as nothing below this share of what it is added to [1].
 _NOTHING = 1e-6
 #: Symbols that begin a sentence stay as they are.
 _SYMBOLS = ("mu", "dmu")
+
+_ABOUT_THRESHOLDS = """\
+A diagnosis decides by numbers: from how many standard errors a size is known, how many samples are enough, how much a
+law must explain. Each has its name and a comment in the module that uses it; here they all are, with what they stand
+on. A number is listed when a name in capitals stands for it, or for a tuple of numbers, at the top of a module that
+decides, and when it is the default of a field of `Prior`, `Effort`, `Acceptance` or `Materiality`. Tables that hold
+words or functions beside numbers are not listed: units for sizes, forms of laws and their grids, ranges of a rig's
+parameters. `tests/thresholds.json` is the same table for programs, and a test holds it against the code.
+
+`scripts/19_thresholds.py` makes each 1.3 and 0.7 times as large, diagnoses a bench again and counts the verdicts whose
+kind or names turn. A share near 1 is moved by its distance from 1, a whole number by one at least. In the column
+*turned*, 1 of 4 says that one of four verdicts turned, of two campaigns with both moves; *not read* that nothing used
+the number at any of them; - that it was not measured. A number that turns nothing on a bench of all families decides
+nothing, and can go; on a few campaigns that says little."""
 
 
 def effects_index() -> str:
@@ -151,10 +166,75 @@ def command_line_page() -> str:
     return "\n\n".join(parts) + "\n"
 
 
+def thresholds_page() -> str:
+    """Write the page of the numbers by which a diagnosis decides, from their table and the comments in the code."""
+    sys.path.insert(0, str(TESTS))
+    from thresholds import BASES, SCALES, find_statements, read_table  # pyright: ignore[reportMissingImports]
+
+    rows, meanings = read_table(), {one.name: one.meaning for one in find_statements()}
+    packages: dict[str, dict[str, dict[str, Any]]] = {}
+    for name, row in rows.items():
+        packages.setdefault(name.split(".")[0], {})[name.partition(".")[2]] = row
+    counted = [[f"`{package}`", *_counts(of.values(), list(BASES))] for package, of in packages.items()]
+    counted.append(["all", *_counts(rows.values(), list(BASES))])
+    benches = sorted({row["bench"] for row in rows.values() if row["bench"]})
+    parts = [
+        f"{_MADE}# Thresholds",
+        _ABOUT_THRESHOLDS,
+        f"Bench of the counts: {'; '.join(benches) or 'none yet'}.",
+        "## By package",
+        _table(["package", "numbers", *BASES, "definitions", "moved", "turn a verdict"], counted),
+        f"A definition decides nothing: {SCALES['definition'].partition(': ')[2]}. It counts under no basis.",
+        "## How a number scales",
+        _table(["word", "meaning"], SCALES.items()),
+        "## What it stands on",
+        _table(["word", "meaning"], BASES.items()),
+    ]
+    heads = ["number", "value", "unit", "scales", "basis", "turned", "meaning"]
+    for package, of in packages.items():
+        lines = [
+            [
+                f"`{name}`",
+                _value(row["value"]),
+                *(row[k] for k in heads[2:5]),
+                _turned(row),
+                meanings[f"{package}.{name}"],
+            ]
+            for name, row in of.items()
+        ]
+        parts += [f"## {package}", _table(heads, lines)]
+    return "\n\n".join(parts) + "\n"
+
+
+def _counts(rows: Iterable[dict[str, Any]], bases: list[str]) -> list[str]:
+    """Count rows of the table of thresholds: all, by basis, definitions, moved, and those that turn a verdict."""
+    rows = list(rows)
+    decide = [row for row in rows if row["scales"] != "definition"]
+    measured = [row for row in decide if row["read"]]
+    numbers = [len(rows), *(sum(row["basis"] == basis for row in decide) for basis in bases)]
+    return [str(n) for n in (*numbers, len(rows) - len(decide), len(measured), sum(r["turned"] > 0 for r in measured))]
+
+
+def _turned(row: dict[str, Any]) -> str:
+    if row["turned"] is None:
+        return "" if row["scales"] == "definition" else "-"
+    return f"{row['turned']} of {row['of']}" if row["read"] else "not read"
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, list):
+        return f"({', '.join(_value(one) for one in value)})"
+    return value if isinstance(value, str) else f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
 def committed_pages() -> dict[Path, str]:
     """Give the made pages that are kept in the repository, as they should be."""
     stored = json.loads((DOCS / "validation.json").read_text(encoding="utf-8"))
-    return {DOCS / "effects" / "index.md": effects_index(), DOCS / "validation.md": validation_page(stored)}
+    return {
+        DOCS / "effects" / "index.md": effects_index(),
+        DOCS / "validation.md": validation_page(stored),
+        DOCS / "thresholds.md": thresholds_page(),
+    }
 
 
 def write_site_pages() -> list[str]:

@@ -7,15 +7,12 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import norm
 
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.campaign.materiality import Materiality
-from slipwise.diagnosis.findings import EffectFinding, _rivals, compute_excess_over_noise
-from slipwise.diagnosis.hypothesis import Hypothesis, is_at_limit, list_parameters_at_bound, make_base_hypothesis
-from slipwise.diagnosis.hypothesis_fit import make_fit
-from slipwise.diagnosis.importance import Change, Importance
+from slipwise.diagnosis.findings import EffectFinding, _left_where_it_shows, _rivals, compute_excess_over_noise
 from slipwise.diagnosis.result import Candidate, Diagnosis
-from slipwise.diagnosis.search_state import Search, tried_before
 from slipwise.diagnosis.verdict import Verdict, decide_verdict, is_confirmed
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit
@@ -29,6 +26,11 @@ from slipwise.relations.parameters import Free, Term, list_base_numbers, make_te
 from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.relations.setting import Weighing
 from slipwise.relations.table import Block, Residuals
+from slipwise.selection.hypothesis import Hypothesis, is_at_limit, list_parameters_at_bound, make_base_hypothesis
+from slipwise.selection.hypothesis_fit import make_fit
+from slipwise.selection.importance import Change, Importance
+from slipwise.selection.inclusion import MATTERS, Inclusion
+from slipwise.selection.search_state import Search, tried_before
 from slipwise.signals.filters import LowPass
 
 Array = NDArray[np.float64]
@@ -37,6 +39,8 @@ NOISE = {"slip_x": 2e-5, "table_ax": 0.01, "table_az": 0.01, "girder_ax": 0.01, 
 FORCE_NOISE = 20.0
 #: How many times what matters an effect changes, where nothing is said: well beyond doubt.
 MATERIAL = 5.0
+#: Floors that the posterior sees of an effect, and the share of its size by which it may be off.
+SHOWS, KNOWN = 2.0, 0.05
 
 
 def shaken(frequency: float, seed: int, gauges: tuple[str, ...] = ()) -> Record:
@@ -212,8 +216,10 @@ def findings_of(
                 at_bound=tuple(p for label, p in bounds if label in {t.label for t in terms}),
                 at_limit=any(t.label in is_at_limit(final) for t in terms),
                 importance=importance,
-                material=importance.share_of_limit(limits or Materiality()),
+                material=(size := importance.share_of_limit(limits or Materiality())),
                 stays=1.0,
+                inclusion=Inclusion(float(norm.cdf((1.0 - MATTERS / size) / KNOWN)), 1.0, size, KNOWN, SHOWS, 0.0, 1.0),
+                beside=_left_where_it_shows(left, final.summary),
             )
         )
     return sorted(out, key=lambda f: -f.material)
@@ -266,6 +272,7 @@ def diagnosed(
         search=state,
         final=make_fit(state.base, shown, with_slopes=False),
         seconds=1.0,
+        stages={},
     )
 
 

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from typing import Any
 
     from slipwise import channels, effects, motion, rig, workbench
+    from slipwise.bearings.judge import judge_bearing as bearing
+    from slipwise.bearings.result import BearingReport
     from slipwise.campaign import Campaign, load_campaign
     from slipwise.campaign.draft import init_campaign
     from slipwise.comparison.compare import compare
@@ -32,8 +34,8 @@ if TYPE_CHECKING:
     from slipwise.design.next_test import NextTest, next_test
     from slipwise.diagnosis.ladder import Ladder, ladder
     from slipwise.diagnosis.result import Diagnosis
+    from slipwise.discovery.discover import add_law, discover
     from slipwise.discovery.discover import diagnose_with_law as diagnose
-    from slipwise.discovery.discover import discover
     from slipwise.discovery.result import Discovery
     from slipwise.effects import Effect
     from slipwise.errors import SlipwiseError
@@ -70,7 +72,9 @@ _PLACES: dict[str, tuple[str, str]] = {
     "load_campaign": ("campaign", "load_campaign"),
     "audit": ("instruments.checks", "check_instruments"),
     "corrected_campaign": ("instruments.checks", "corrected_campaign"),
+    "bearing": ("bearings.judge", "judge_bearing"),
     "compare": ("comparison.compare", "compare"),
+    "add_law": ("discovery.discover", "add_law"),
     "diagnose": ("discovery.discover", "diagnose_with_law"),
     "discover": ("discovery.discover", "discover"),
     "ladder": ("diagnosis.ladder", "ladder"),
@@ -81,6 +85,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "write_record": ("record", "write_record"),
     "quantity": ("units", "quantity"),
     "AuditReport": ("instruments.report", "AuditReport"),
+    "BearingReport": ("bearings.result", "BearingReport"),
     "Campaign": ("campaign", "Campaign"),
     "Checks": ("instruments.checks", "Checks"),
     "Comparison": ("comparison.result", "Comparison"),
@@ -111,6 +116,7 @@ _PLACES: dict[str, tuple[str, str]] = {
 
 __all__ = [
     "AuditReport",
+    "BearingReport",
     "Campaign",
     "Checks",
     "Comparison",
@@ -131,8 +137,10 @@ __all__ = [
     "TableMotion",
     "__version__",
     "add",
+    "add_law",
     "audit",
     "base_model",
+    "bearing",
     "campaigns",
     "channels",
     "compare",

@@ -15,10 +15,10 @@ import slipwise as sw
 from slipwise.campaign.materiality import Materiality
 from slipwise.campaign.settings import read_settings
 from slipwise.cli import app
-from slipwise.diagnosis.importance import RESPONSES
 from slipwise.effects import DERIVED, HOOKS, LAGGING, PORTS, RIG_MOTION, load_effect
 from slipwise.model.file import load_model
 from slipwise.rig.known import SPECIMEN_UNITS, SPECIMEN_WORDS
+from slipwise.selection.importance import RESPONSES
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "src" / "slipwise"

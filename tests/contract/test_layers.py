@@ -45,17 +45,18 @@ ARROWS: dict[str, str] = {
         "arrays campaign channels display effects errors estimation instruments jobs model motion noise preparation"
         " record relations residual_map rig signals simulation"
     ),
+    "bearings": ("arrays campaign display errors estimation jobs model preparation relations rig signals"),
+    "selection": (
+        "arrays campaign comparison effects errors estimation evidence jobs model motion params preparation relations"
+        " rig simulation"
+    ),
     "diagnosis": (
         "arrays campaign channels comparison display effects errors estimation evidence instruments jobs model noise"
-        " params preparation record regression relations residual_map rig simulation units"
-    ),
-    "selection": (
-        "arrays campaign comparison diagnosis effects errors estimation jobs model params preparation relations"
-        " residual_map signals"
+        " preparation record regression relations residual_map rig selection simulation units"
     ),
     "discovery": (
         "arrays campaign diagnosis display effects errors estimation jobs model noise params preparation relations"
-        " residual_map signals simulation"
+        " residual_map selection signals"
     ),
     "studies": (
         "arrays campaign channels diagnosis effects errors estimation jobs model motion record relations rig signals"
@@ -63,20 +64,20 @@ ARROWS: dict[str, str] = {
     ),
     "design": (
         "campaign comparison diagnosis discovery display effects errors estimation evidence jobs model motion"
-        " preparation record relations signals simulation units"
+        " preparation record relations selection signals simulation units"
     ),
     "session": (
         "arrays campaign comparison diagnosis discovery display effects errors estimation jobs model preparation record"
-        " relations rig simulation units"
+        " relations rig selection simulation units"
     ),
     "view": (
-        "arrays channels comparison diagnosis discovery effects errors estimation jobs noise params record relations"
-        " residual_map rig signals studies units"
+        "arrays bearings channels comparison diagnosis discovery effects errors estimation jobs noise params record"
+        " relations residual_map rig selection signals studies units"
     ),
     "cli": "errors jobs view",
     "workbench": (
         "campaign channels comparison design diagnosis discovery effects errors jobs model noise preparation"
-        " relations session units view"
+        " relations selection session units view"
     ),
     "__main__": "cli jobs",
 }
@@ -91,6 +92,7 @@ REASONS = {
     "effects/_by_pad.py": "reached through the package",
     "effects/_prandtl.py": "compiled code, out of an effect's file, which is read as an example",
     "effects/_trust.py": "reached through the package",
+    "jobs/stage_clock.py": "measures long work of any package",
     "relations/transverse_friction.py": "a relation of its own beside the others",
     "simulation/kernel/prescribed_table.py": "a correction of MuJoCo's step, with its derivation",
     "simulation/kernel/rig_motion.py": "what laws are told of the rig, as campaign/rig_motion.py has it measured",

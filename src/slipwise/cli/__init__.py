@@ -7,6 +7,7 @@ import typer
 
 import slipwise as sw
 from slipwise.cli import (
+    bearing,
     bench,
     campaign,
     catalogue,
@@ -39,6 +40,7 @@ for command in (
 ):  # fmt: skip
     app.command()(command)
 app.command("next")(next_test.next_motion)
+app.command()(bearing.bearing)
 for command in (
     ensemble.ensemble, bench.bench, paper.paper, view.view, catalogue.rigs, catalogue.channels, catalogue.motions,
     effects.effects,

@@ -70,7 +70,7 @@ def demo(
     _say("3  What is missing?", found.sentence)
     print_effects(found)
     hypotheses = [{"hypothesis": c.effect, "probability": f"{100 * c.probability:.1f} %"} for c in found.candidates]
-    print_table(f"{ladder.tried[0]} candidates screened, {ladder.tried[1]} refitted", hypotheses)
+    print_table(f"{ladder.tried[0]} candidates compared, {ladder.tried[1]} refitted", hypotheses)
     _say(
         "4  Add it, and watch the error fall",
         f"Refitted with {' and '.join(found.added) or 'nothing more'}, and judged by "

@@ -25,6 +25,7 @@ from slipwise.cli.options import (
 )
 from slipwise.cli.workers import Cluster, Workers
 from slipwise.errors import InputError
+from slipwise.jobs.interruption import Stopped
 
 CampaignFolders = Annotated[
     list[Path], typer.Argument(help="Folders with campaign.toml and the measured runs; one, or several to compare.")
@@ -53,6 +54,7 @@ def diagnose(
     accept: Annotated[
         bool, typer.Option("--accept", help="Put what it names into the campaign's model.toml, and fit that.")
     ] = False,
+    timings: Annotated[bool, typer.Option(help="Print how long each stage took.")] = False,
     json: Json = False,
 ) -> None:
     """Say which effect the model lacks, with a probability that means what it says.
@@ -71,7 +73,7 @@ def diagnose(
         wanted = Wanted(model.resolve() if model else None, own, trust, system, recording)
         diagnose_many(campaign, out, wanted, workers, cluster, json)
         return
-    _diagnose_one(campaign[0], out, model, effect, trust, system, recording, figures, accept, json)
+    _diagnose_one(campaign[0], out, model, effect, trust, system, recording, figures, accept, json, timings)
 
 
 def _diagnose_one(
@@ -85,6 +87,7 @@ def _diagnose_one(
     figures: bool,
     accept: bool,
     json: bool,
+    timings: bool,
 ) -> None:
     measured = sw.load_campaign(campaign)
     folder = out_folder(out)
@@ -92,9 +95,10 @@ def _diagnose_one(
     # opened first: whoever has this campaign open elsewhere hears so before minutes have passed
     session = sw.Session(measured, start, trust=trust or effect or (), resume=False) if accept else None
     try:
+        own = own_effects(effect, start)
         with steps() as tell:
-            found = sw.diagnose(measured, start, own=own_effects(effect, start), system=system, progress=tell)
-        _show(found, folder, recording and measured.specimen.free, figures, json)
+            found = sw.diagnose(measured, start, own=own, system=system, law=False, progress=tell)
+        _show(found, folder, recording and measured.specimen.free, figures, json, timings)
         if session is not None:
             _accept(found, session, ERR if json else OUT)
     finally:
@@ -113,16 +117,43 @@ def _accept(found: "sw.Diagnosis", session: "sw.Session", console: Console) -> N
     say(f"wrote {session.accept()}", console)
 
 
-def _show(found: "sw.Diagnosis", folder: Path, recording: bool, figures: bool, json: bool) -> None:
+def _show(
+    found: "sw.Diagnosis",
+    folder: Path,
+    recording: bool,
+    figures: bool,
+    json: bool,
+    timings: bool,
+) -> None:
     try:
-        if not json:  # before anything is drawn: who waits, waits for this
+        if not json:  # before a law is looked for and anything is drawn: who waits, waits for this
             _tell(found)
     finally:  # who listened may have left after some lines, as `head` does
-        files = write_diagnosis(found, folder, recording, figures)
+        found = _with_law(found, ERR if json else OUT)
+        times: dict[str, float] = {}
+        files = write_diagnosis(found, folder, recording, figures, times)
     if json:
         print_json(found.as_json())
     else:
         _wrote(files)
+    if timings:
+        for words, seconds in {**found.stages, **times}.items():
+            say(f"{seconds:6.1f} s  {words}", ERR if json else OUT)
+
+
+def _with_law(found: "sw.Diagnosis", console: Console) -> "sw.Diagnosis":
+    """Look for the law of an unknown force; who stops that keeps the verdict."""
+    if found.verdict.kind != "unknown" and not found.verdict.unknown_beside:
+        return found
+    try:
+        with steps() as tell:
+            found = sw.add_law(found, tell)
+    except Stopped:
+        say("the law was not looked for to the end; `slipwise discover` looks for it", console)
+        return found
+    if found.law:
+        say(f"{found.law['words']} `slipwise discover` writes it as an effect.", console)
+    return found
 
 
 def _tell(found: "sw.Diagnosis") -> None:
@@ -196,7 +227,7 @@ def ladder(
     say_corrections(found.corrections)
     print_rungs(found)
     screened, refitted = found.tried
-    OUT.print(f"{screened} candidates screened, {refitted} hypotheses refitted, {found.seconds:.0f} s; {found.stopped}")
+    OUT.print(f"{screened} candidates compared, {refitted} hypotheses refitted, {found.seconds:.0f} s; {found.stopped}")
     _wrote([content, picture])
 
 

@@ -1,5 +1,6 @@
 """The files of a diagnosis: its JSON, its page, its recording and its figures."""
 
+import time
 from pathlib import Path
 
 import slipwise as sw
@@ -7,16 +8,35 @@ from slipwise.cli.console import ERR, say
 from slipwise.errors import InputError
 
 
-def write_diagnosis(found: "sw.Diagnosis", folder: Path, recording: bool, figures: bool = False) -> list[Path]:
-    """Write the diagnosis, its page and, if asked for, its recording and figures; gives the files."""
+def write_diagnosis(
+    found: "sw.Diagnosis",
+    folder: Path,
+    recording: bool,
+    figures: bool = False,
+    times: dict[str, float] | None = None,
+) -> list[Path]:
+    """Write the diagnosis, its page and, if asked for, its recording and figures; gives the files.
+
+    Args:
+        found: the diagnosis.
+        folder: that exists.
+        recording: replay one run and write it for the viewer.
+        figures: write every figure of the page by itself too.
+        times: gets what was done -> how long it took [s], if given.
+    """
     from slipwise.view.figures.figure_files import figures_into
     from slipwise.view.files import save_json, save_page
     from slipwise.view.pages.diagnosis_page import diagnosis_page
 
+    began = time.perf_counter()
     files = [save_json(found.as_json(), folder / "diagnosis.json")]
     with figures_into(folder / "figures" if figures else None) as drawn:
         files.append(save_page(diagnosis_page(found, found.ladder()), folder / "report.html"))
-    return [*files, *drawn, *(_record(found, folder) if recording else [])]
+    drawn_at = time.perf_counter()
+    recorded = _record(found, folder) if recording else []
+    if times is not None:
+        times |= {"drawing the page": drawn_at - began, "replaying for the viewer": time.perf_counter() - drawn_at}
+    return [*files, *drawn, *recorded]
 
 
 def _record(found: "sw.Diagnosis", folder: Path) -> list[Path]:

@@ -29,6 +29,7 @@ _FALSE = 0.01
 _FEWEST = 8.0
 #: Noise at the floor remembers no more samples than this: those of a logger's filter [1].
 _LONGEST = 5.0
+#: Edges of the bands over which an error is shared out [Hz].
 _BANDS = (0.0, 1.0, 3.0, 10.0, 30.0, 100.0, np.inf)
 
 

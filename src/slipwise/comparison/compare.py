@@ -15,7 +15,7 @@ from slipwise.comparison.odd_even import split_odd_and_even
 from slipwise.comparison.patterns import find_patterns
 from slipwise.comparison.result import Comparison
 from slipwise.comparison.sentences import describe_places
-from slipwise.comparison.system_level import SystemLevel, compare_system_level
+from slipwise.comparison.system_level import SEED, SystemLevel, compare_system_level
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import compute_intervals
@@ -27,9 +27,6 @@ from slipwise.model.file import as_model
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared, fit_prepared
 from slipwise.relations.girder import list_balances
-
-#: Noise that the replay is fed with is the same in every comparison, so that two of them can be compared.
-_SEED = 1
 
 
 @one_thread_algebra()
@@ -89,7 +86,7 @@ def compare(
         try:
             if not campaign.specimen.free:
                 raise InputError("the slip of this rig is prescribed: there is nothing to replay")
-            rng = np.random.default_rng(_SEED)
+            rng = np.random.default_rng(SEED)
             level = compare_system_level(base, rng, lambda done: tell("replaying", 0.65 + 0.35 * done))
         except InputError as error:
             cannot.append(f"system level: {error}")

@@ -11,10 +11,11 @@ import numpy as np
 from slipwise.arrays import Array
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Intervals
+from slipwise.estimation.least_squares import STEP
 from slipwise.simulation.predict import predictor
 
+#: Points of the surface along either axis.
 _PRESSURES, _SPEEDS = 9, 12
-_STEP = 1e-3
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ def compute_friction_surface(base: BaseFit, found: Intervals) -> FrictionSurface
     scales = {f.key: f.scale for f in base.free}
     slopes = []
     for key in keys:
-        step = _STEP * scales[key]
+        step = STEP * scales[key]
         high_f = next(f.high for f in base.free if f.key == key)
         step = -step if values[key] + step > high_f else step
         moved = _friction(base, {**values, key: values[key] + step}, pressure, speed)

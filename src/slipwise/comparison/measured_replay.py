@@ -23,8 +23,9 @@ from slipwise.simulation.predict import Predictor, predictor
 from slipwise.simulation.simulator import DT, Memory
 from slipwise.simulation.windows import Windows, simulate_windows
 
-#: Length of a window, and what of its start is not judged: the pads ring, and the filter has no past [s].
+#: Length of a window [s].
 WINDOW = 1.0
+#: What of its start is not judged: the pads ring, and the filter has no past [s].
 SETTLE = 0.15
 #: At the end of a window the zero-phase filter has no future [s].
 _END = 0.02

@@ -8,6 +8,7 @@ from slipwise.comparison.cells import Samples
 from slipwise.comparison.mean_residual import compute_mean_residual
 from slipwise.residual_map.splines import choose_equal_bins
 
+#: Bins over speed and over the way since the last reversal.
 _SPEEDS, _WAYS = 6, 4
 #: Fewer independent samples than this in either direction say nothing of a bin.
 _FEWEST = 6.0

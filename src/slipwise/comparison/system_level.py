@@ -28,6 +28,8 @@ from slipwise.relations.run_data import FitRun
 from slipwise.signals.ends import in_frequency
 from slipwise.simulation.simulator import DT
 
+#: Seed of the noise that a replay is fed with: the same always, so that two comparisons can be compared.
+SEED = 1
 #: Vertical motion below this many times its own noise tells nothing of the springs.
 _SHAKEN = 8.0
 #: Largest lag between the accelerometers of table and girder [s].

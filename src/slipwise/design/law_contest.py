@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from slipwise.diagnosis.hypothesis import Hypothesis, polish, refit
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.discover import discover
 from slipwise.discovery.effect_file import can_be_written, write_law
@@ -13,6 +12,7 @@ from slipwise.discovery.law import Law
 from slipwise.discovery.result import Discovery
 from slipwise.effects import find_effect
 from slipwise.relations.parameters import Term
+from slipwise.selection.hypothesis import Hypothesis, polish, refit
 
 #: What may be said of a discovery whose laws are worth an experiment.
 _CLAIMED = ("law", "state", "organised")

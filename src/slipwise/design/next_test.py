@@ -27,10 +27,8 @@ from slipwise.design.law_contest import Contest, law_contest
 from slipwise.design.motions import LIBRARY, Limits, motions_for
 from slipwise.design.result import NextTest, Proposal
 from slipwise.diagnosis.diagnose import diagnose
-from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, polish, refit
 from slipwise.diagnosis.indistinguishable import list_alike_pairs, list_known_effects
 from slipwise.diagnosis.result import Diagnosis
-from slipwise.diagnosis.search_state import Search
 from slipwise.effects import Effect
 from slipwise.errors import InputError, SimulationError, SlipwiseError
 from slipwise.estimation.base_fit import fit_base
@@ -44,6 +42,8 @@ from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
 from slipwise.record import Record
 from slipwise.relations.parameters import Term
+from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, polish, refit
+from slipwise.selection.search_state import Search
 from slipwise.signals.filters import lowpass
 from slipwise.simulation.replay import replay
 
@@ -162,7 +162,7 @@ def _strongest(state: Search, beside: Sequence[str]) -> Hypothesis:
     tried = [h for h in state.tried if len(h.terms) <= max(len(named), 1) and not set(h.names) <= named]
     if tried:
         return max(tried, key=lambda h: compute_score(base.summary, h.summary))
-    fresh = [s.term for s in state.screened if s.term.effect.name not in named]
+    fresh = [s.term for s in state.alone if s.term.effect.name not in named]
     if not fresh:
         raise InputError(
             "there is nothing to tell apart: this campaign can test no effect of the catalogue against "
@@ -182,7 +182,7 @@ def _partner(state: Search) -> list[Hypothesis]:
 
 
 def _fitted(state: Search, term: Term) -> Hypothesis:
-    start = next((s.values for s in state.screened if s.term.label == term.label), term.effect.typical())
+    start = next((s.values for s in state.alone if s.term.label == term.label), term.effect.typical())
     return polish(refit(state.base, [term], {term.label: start}))
 
 

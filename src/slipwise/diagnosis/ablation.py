@@ -10,13 +10,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from slipwise.diagnosis.hypothesis import Hypothesis, weigh_as
-from slipwise.diagnosis.initial_grid import strengths
-from slipwise.diagnosis.search_state import Search, left_with
 from slipwise.errors import SlipwiseError
 from slipwise.evidence.left_out import LinearFit, fit_linearly
 from slipwise.evidence.residual_summary import ResidualSummary, summarise_linear_fit
 from slipwise.relations.parameters import ZERO, Term, list_replaced_numbers
+from slipwise.selection.hypothesis import Hypothesis, weigh_as
+from slipwise.selection.initial_grid import strengths
+from slipwise.selection.search_state import Search, left_with
 
 
 def without(state: Search, found: Hypothesis, terms: Sequence[Term]) -> tuple[Search, ResidualSummary]:

@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 from itertools import combinations, product
 
+from slipwise.diagnosis.findings import compute_excess_over_noise
 from slipwise.diagnosis.indistinguishable import list_alike_pairs, list_known_effects
-from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.verdict import Verdict, compute_explained_share_of_base
+from slipwise.diagnosis.verdict import Verdict
 from slipwise.effects import Effect
-from slipwise.evidence.score import compute_score
+from slipwise.selection.search_state import Search
 
 Explanation = tuple[str, ...]
 #: A law that explains less is not near [1].
@@ -17,13 +17,14 @@ _LEAST_SHARE = 0.05
 def find_nearest_family(state: Search) -> tuple[str, float] | None:
     """Return the law of the catalogue that alone explains most, and its share of what stands above the noise [1].
 
-    None where no law that was fitted explains as much as `_LEAST_SHARE`.
+    None where no law explains as much as `_LEAST_SHARE`. What is not straight in a law's size is left out.
     """
-    origin = state.path[0]
-    laws = [h for h in state.tried if len(h.terms) == 1 and h.terms[0].effect.component != "instrument"]
-    best = max(laws, key=lambda h: compute_score(origin.summary, h.summary), default=None)
-    share = compute_explained_share_of_base(origin, best) if best is not None else 0.0
-    return (best.names[0], share) if best is not None and share >= _LEAST_SHARE else None
+    summary = state.path[0].summary
+    over = max(compute_excess_over_noise(summary, summary), 1e-12)
+    laws = [a for a in state.alone if a.term.effect.component != "instrument"]
+    best = max(laws, key=lambda a: a.gain, default=None)
+    share = min(best.gain / over, 1.0) if best is not None else 0.0
+    return (best.term.effect.name, share) if best is not None and share >= _LEAST_SHARE else None
 
 
 def list_explanations(found: Verdict, state: Search) -> tuple[Explanation, ...]:

@@ -1,25 +1,18 @@
 """The verb: diagnose a campaign."""
 
-import time
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from slipwise.campaign import Campaign
-from slipwise.diagnosis.detectable_size import estimate_least_sizes
 from slipwise.diagnosis.findings import collect_findings
 from slipwise.diagnosis.full_length_errors import compute_full_length_errors
-from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, refit_for_report
-from slipwise.diagnosis.hypothesis_fit import make_fit
-from slipwise.diagnosis.importance import compute_importance
 from slipwise.diagnosis.indistinguishable import list_alike_pairs
 from slipwise.diagnosis.limitations import list_limitations
 from slipwise.diagnosis.replays import replayed_errors
 from slipwise.diagnosis.reported_sizes import list_named_sizes
 from slipwise.diagnosis.result import Candidate, Diagnosis
-from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.selection import SelectionResult, select_effects
 from slipwise.diagnosis.verdict import Verdict, decide_verdict, is_confirmed, with_faults
 from slipwise.effects import Effect
 from slipwise.errors import InputError
@@ -30,10 +23,17 @@ from slipwise.evidence.residual_summary import ResidualSummary, get_error
 from slipwise.evidence.score import compute_score, find_largest_drop
 from slipwise.instruments.suspects import effect_of
 from slipwise.jobs.parallel import one_thread_algebra
+from slipwise.jobs.stage_clock import StageClock
 from slipwise.model import Model
 from slipwise.model.file import as_model
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
+from slipwise.selection.explained_alone import list_least_sizes
+from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, refit_for_report
+from slipwise.selection.hypothesis_fit import make_fit
+from slipwise.selection.importance import compute_importance
+from slipwise.selection.search_state import Search
+from slipwise.selection.select import SelectionResult, select_effects
 
 #: Hypotheses that are listed.
 _LISTED = 6
@@ -47,7 +47,6 @@ def diagnose(
     own: Iterable[Effect] = (),
     system: bool = False,
     progress: Callable[[str, float], None] | None = None,
-    select: Callable[..., SelectionResult] = select_effects,
 ) -> Diagnosis:
     """Say which effect a model lacks.
 
@@ -57,20 +56,19 @@ def diagnose(
         own: effects beside those of the catalogue, as `slipwise.effects.find_effect` gives them.
         system: replay base and final model as well.
         progress: called with what is being done and the share done.
-        select: finds what is missing, as `select_effects` does.
 
     Raises:
         InputError: the campaign lacks what every fit needs.
     """
-    began = time.perf_counter()
-    tell = progress or (lambda words, share: None)
+    clock = StageClock(progress)
+    tell = clock.tell
     tell("reading", 0.0)
     prepared = prepare(campaign)
     measured = prepared.recorded
     start = None if model is None else as_model(model)
     tell("fitting base parameters", 0.02)
     part = 0.7 if system else 0.9
-    selected = select(prepared, start, own, lambda words, share: tell(words, part * share))
+    selected = select_effects(prepared, start, own, lambda words, share: tell(words, part * share))
     base, state = selected.base, selected.search
     tell("replaying without each effect", part)
     found = make_fit(base, state.final, with_slopes=not state.final.objective.balanced)
@@ -99,6 +97,7 @@ def diagnose(
     whole = compute_full_length_errors(prepared.uncut, prepared.unjudged, base.campaign, judged)
     recorded = _unmended(prepared, start) or before.summary
     tell("done", 1.0)
+    stages = clock.stages()
     return Diagnosis(
         campaign=measured.name,
         verdict=verdict,
@@ -112,12 +111,13 @@ def diagnose(
         candidates=_listed(selected, recorded, before.summary, decided, verdict, sizes),
         confirmed=is_confirmed(state) if decided.effects else None,
         predicted_friction=_predicted_friction(final),
-        least=estimate_least_sizes(state.all_screened, state.path[0]),
+        least=list_least_sizes(state.alone),
         cannot_tell=tuple(cannot),
         corrections=prepared.corrections,
         search=state,
         final=final,
-        seconds=time.perf_counter() - began,
+        seconds=sum(stages.values()),
+        stages=stages,
     )
 
 
@@ -185,7 +185,7 @@ def _candidates(
     best = state.best
     unique |= {h.names: h for h in verdict.rivals}
     order = [best, *(h for n, h in unique.items() if n != best.names)] if best.terms else list(unique.values())
-    absorbed = {s.term.label: s.absorbed for s in state.screened}
+    absorbed = {s.term.label: s.absorbed for s in state.alone}
     listed = order[:_LISTED]
     shares = _shares(state, verdict, listed)
     out = []

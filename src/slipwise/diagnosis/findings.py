@@ -6,15 +6,15 @@ import numpy as np
 
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.ablation import without
-from slipwise.diagnosis.gauge_error_shrinkage import shares_that_stay
-from slipwise.diagnosis.hypothesis import Hypothesis, is_at_limit, list_parameters_at_bound
-from slipwise.diagnosis.importance import Importance
-from slipwise.diagnosis.plainer import holds_as_limit
-from slipwise.diagnosis.ranking import has_delay_for_filter
-from slipwise.diagnosis.search_state import Search
 from slipwise.evidence.residual_summary import ResidualSummary
-from slipwise.evidence.score import compute_lead, compute_score
+from slipwise.evidence.score import compute_lead, compute_relative_drop, compute_score
+from slipwise.instruments.delay_or_filter import is_delay, passed
 from slipwise.relations.parameters import Term
+from slipwise.selection.hypothesis import Hypothesis, is_at_limit, list_parameters_at_bound
+from slipwise.selection.importance import Importance
+from slipwise.selection.inclusion import ABSENT, Inclusion
+from slipwise.selection.plainer import holds_as_limit
+from slipwise.selection.search_state import Search
 
 #: Nothing is surer than this many standard errors.
 _SUREST = 30.0
@@ -49,6 +49,8 @@ class EffectFinding:
         importance: what leaving it out changes.
         material: importance over what matters, of what stays beside small faults of all gauges [1].
         stays: the share of its size that does [1].
+        inclusion: what the posterior says of it.
+        beside: what is left in the balance that shows it best, with it: something else hides there [floors].
     """
 
     name: str
@@ -62,6 +64,8 @@ class EffectFinding:
     importance: Importance
     material: float
     stays: float
+    inclusion: Inclusion = ABSENT
+    beside: float = 1.0
 
     @property
     def is_gauge(self) -> bool:
@@ -94,7 +98,8 @@ def collect_findings(
         compute_excess_over_noise(final.summary, final.summary),
     )
     sizes = {n: importances[n].share_of_limit(limits) for n in names}
-    stays = shares_that_stay(final, sizes, state.all_screened, limits)
+    inclusions = {n: state.inclusions.get(n, ABSENT) for n in names}
+    stays = {n: of.stays for n, of in inclusions.items()}
     out = [
         EffectFinding(
             name=n,
@@ -110,10 +115,18 @@ def collect_findings(
             importance=importances[n],
             material=sizes[n] * stays[n],
             stays=stays[n],
+            inclusion=inclusions[n],
+            beside=_left_where_it_shows(left[n], final.summary),
         )
         for n in names
     ]
     return state, sorted(out, key=lambda f: -f.material)
+
+
+def _left_where_it_shows(without: ResidualSummary, final: ResidualSummary) -> float:
+    """Return what a model leaves of left-out motions in the balance that shows an effect best [floors]."""
+    where = max(final.fitted, key=lambda r: compute_relative_drop(without, final, r))
+    return float(np.sqrt(max(final.left_out_level(where), 1.0)))
 
 
 def compute_excess_over_noise(summary: ResidualSummary, best: ResidualSummary) -> float:
@@ -138,9 +151,16 @@ def _rivals(state: Search, parts: dict[str, tuple[Term, ...]]) -> dict[str, Riva
         others = [h for h in state.tried if name not in h.names and rest < {t.label for t in h.terms}]
         others = [h for h in others if len(h.terms) <= len(best.terms) and len(list_parameters_at_bound(h)) <= ends]
         others = [h for h in others if not holds_as_limit(h, best)]  # that is as good by what it is at a bound
-        if not has_delay_for_filter(best):  # a filter that takes nothing is a delay by another name
-            others = [h for h in others if not has_delay_for_filter(h)]
+        if not _has_delay_for_filter(best):  # a filter that takes nothing is a delay by another name
+            others = [h for h in others if not _has_delay_for_filter(h)]
         rival = max(others, key=lambda h: compute_score(best.summary, h.summary), default=None)
         if rival is not None:
             out[name] = Rival(rival, float(np.clip(compute_lead(best.summary, rival.summary), -_SUREST, _SUREST)))
     return out
+
+
+def _has_delay_for_filter(found: Hypothesis) -> bool:
+    """Return whether a hypothesis has a filter that takes nothing the logger's own let through: a delay by its name."""
+    run = found.objective.run(0)
+    highest = passed(run.filtered, run.dt)
+    return any(is_delay(t.effect, found.values_of(t), highest) for t in found.terms)

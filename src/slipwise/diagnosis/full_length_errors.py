@@ -11,9 +11,9 @@ import numpy as np
 
 from slipwise.campaign import Campaign
 from slipwise.campaign.invalid_samples import InvalidSamples
-from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.estimation.objective import make_objective
 from slipwise.relations.run_data import FitRun, fit_runs
+from slipwise.selection.hypothesis import Hypothesis
 
 
 def compute_full_length_errors(

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable
 
-from slipwise.diagnosis.search_state import Search
 from slipwise.effects import Effect, catalogue
 from slipwise.estimation.objective import Objective
+from slipwise.selection.search_state import Search
 
 Pairs = dict[frozenset[str], tuple[str, ...]]
 

@@ -10,14 +10,7 @@ from typing import Any
 import numpy as np
 
 from slipwise.campaign import Campaign
-from slipwise.diagnosis.candidates import list_candidates
-from slipwise.diagnosis.forward_selection import MOST_EFFECTS
-from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, polish, refit, refit_for_report
-from slipwise.diagnosis.hypothesis_fit import make_fit
 from slipwise.diagnosis.replays import replayed_errors
-from slipwise.diagnosis.screening import Screened, screen
-from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.selection import select_effects
 from slipwise.display import Drawn, Tabular
 from slipwise.effects import Effect, find_effect
 from slipwise.errors import InputError, SettingError
@@ -30,6 +23,13 @@ from slipwise.noise.level import is_at_floor
 from slipwise.preparation.data_corrections import DataCorrection
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared, fit_prepared
+from slipwise.selection.candidates import list_candidates
+from slipwise.selection.explained_alone import ExplainedAlone, explain_alone
+from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, polish, refit, refit_for_report
+from slipwise.selection.hypothesis_fit import make_fit
+from slipwise.selection.proposals import MOST_EFFECTS
+from slipwise.selection.search_state import Search
+from slipwise.selection.select import select_effects
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class Ladder(Drawn, Tabular):
     Attributes:
         campaign: its name.
         steps: base first.
-        tried: number of candidates that were screened, and of hypotheses that were refitted.
+        tried: number of candidates that were held against the residual, and of hypotheses that were refitted.
         stopped: why no further step was climbed.
         fits: the fit of each step, for model.toml; none where a diagnosis has climbed already.
         seconds: it took.
@@ -115,7 +115,7 @@ def ladder(
     system: bool = False,
     progress: Callable[[str, float], None] | None = None,
 ) -> Ladder:
-    """Climb the ladder: forward, pairs one step ahead, and effects taken away again that are not worth it.
+    """Climb the ladder: effects that a diagnosis finds, or those asked for, added one by one.
 
     Args:
         campaign: or its folder.
@@ -142,7 +142,7 @@ def ladder(
     else:
         selected = select_effects(prepared, start, own, lambda words, share: tell(words, part * share))
         base, state = selected.base, selected.search
-        path, counts, stopped = _hypothesis_path(state), (len(state.screened), len(state.tried)), _why(state)
+        path, counts, stopped = _hypothesis_path(state), (len(state.alone), len(state.tried)), _why(state)
     fits = tuple(make_fit(base, h) for h in path)
     errors = [float("nan")] * len(fits)
     if system:
@@ -171,7 +171,7 @@ def make_ladder(
     if named:
         ends[len(path) - 1] = system.get("final", np.nan)
     steps = [_step(h, float(ends.get(i, np.nan))) for i, h in enumerate(path)]
-    counts = (len(search.screened), len(search.tried))
+    counts = (len(search.alone), len(search.tried))
     return Ladder(search.base.campaign.name, tuple(steps), counts, _why(search), (), 0.0, corrections)
 
 
@@ -186,7 +186,7 @@ def _hypothesis_path(state: Search) -> list[Hypothesis]:
     return [*refitted, state.final if state.best.terms else refit_for_report(state.best)]
 
 
-def place_effect(base: BaseFit, effect: Effect) -> Screened:
+def place_effect(base: BaseFit, effect: Effect) -> ExplainedAlone:
     """Find where an effect explains most of what a fit leaves, and how large it is there.
 
     Args:
@@ -202,7 +202,7 @@ def place_effect(base: BaseFit, effect: Effect) -> Screened:
         faults = "a fault of samples is found by looking at them: `slipwise diagnose` says whether there is one"
         known = faults if effect.in_samples else "it is part of the model already"
         raise SettingError(f"{effect.name} cannot be added here: {cannot.get(effect.name, known)}")
-    found = screen(base, own)
+    found = explain_alone(base, own)
     if not found:
         raise SettingError(f"{effect.name} changes nothing in this campaign, so it cannot be fitted")
     return found[0]
@@ -222,7 +222,7 @@ def _asked(
 
 
 def _why(state: Search) -> str:
-    if not state.screened:
+    if not state.alone:
         return "no effect of the catalogue can be tested here"
     account = state.final.summary
     worst = max(get_error(account, relation) for relation in account.fitted)

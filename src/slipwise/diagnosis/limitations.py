@@ -11,10 +11,6 @@ from slipwise.channels import part_of
 from slipwise.diagnosis.held_out_regime import find_untestable_reason
 from slipwise.diagnosis.identifiability import list_unidentified
 from slipwise.diagnosis.indistinguishable import list_known_effects
-from slipwise.diagnosis.initial_grid import shapes, strengths
-from slipwise.diagnosis.row_subset import on_screen
-from slipwise.diagnosis.search_state import Search
-from slipwise.diagnosis.sensitivities import compute_column, compute_residual_with, small
 from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
@@ -25,6 +21,10 @@ from slipwise.relations.sample_masks import is_rolling_only_at_rest
 from slipwise.rig.frame import storey_channels
 from slipwise.rig.load_basis import buffers_off_centre
 from slipwise.rig.rocking import coupled
+from slipwise.selection.averaged_rows import AveragedRows, make_averaged_rows
+from slipwise.selection.initial_grid import shapes, strengths
+from slipwise.selection.search_state import Search
+from slipwise.selection.sensitivities import compute_change, compute_stacked_with, small
 
 #: Two effects look alike when their columns agree so well: one run gives 0.95, two after a long rest 0.8 at most [1].
 _ALIKE = 0.85
@@ -50,11 +50,12 @@ def list_limitations(state: Search, final: BaseFit, faults: Sequence[SampleFault
         final: its best hypothesis as a fit.
         faults: of samples, found before any fit.
     """
-    project = make_projector(on_screen(state.base.objective, state.base.solution.jacobian))
+    rows = make_averaged_rows(state.base.objective)
+    project = make_projector(rows.average(state.base.solution.jacobian))
     lost = _balances_not_judged(state, faults)
     return [
         *list_unidentified(final, state.base),
-        *_alike(state, project),
+        *_alike(state, rows, project),
         *_rests_not_given(state),
         *_zero_not_shown(state, final),
         *_nothing_held_out(state.base),
@@ -65,17 +66,17 @@ def list_limitations(state: Search, final: BaseFit, faults: Sequence[SampleFault
         *_floors_not_credible(state),
         *_gauges_not_tried(state),
         *([("balances", lost)] if lost else []),
-        *_without_response(state, project, lost),
+        *_without_response(state, rows, project, lost),
     ]
 
 
-def _alike(state: Search, project: Callable[[Array], Array]) -> Iterator[tuple[str, str]]:
+def _alike(state: Search, rows: AveragedRows, project: Callable[[Array], Array]) -> Iterator[tuple[str, str]]:
     """Find pairs of which one fades in a pause and the other does not, and which look alike in these runs."""
     base = state.base
     effects = {t.effect.name: t.effect for t in state.terms if t.effect.memory and not t.effect.target}
     pairs = [(a, b) for a in effects.values() for b in effects.values() if _distinguished_by_a_rest(a, b)]
     for fading, lasting in pairs:
-        one, other = (_traces(base, effect, project) for effect in (fading, lasting))
+        one, other = (_traces(base, effect, rows, project) for effect in (fading, lasting))
         likeness = max((abs(float(a @ b)) for a in one for b in other), default=0.0)
         if likeness > _ALIKE:
             message = f"what they do in these runs is {likeness:.0%} alike"
@@ -148,18 +149,21 @@ def _distinguished_by_a_rest(fading: Effect, lasting: Effect) -> bool:
     return confused and "rest" in fading.hooks and "rest" not in lasting.hooks
 
 
-def _traces(base: BaseFit, effect: Effect, project: Callable[[Array], Array]) -> list[Array]:
+def _traces(base: BaseFit, effect: Effect, rows: AveragedRows, project: Callable[[Array], Array]) -> list[Array]:
     """Return what an effect with a response does beside the base, of unit length, for a grid of its constants."""
-    columns = [c for c in _columns(base, Term(effect)) if c is not None and _length(c) > _MIN_COLUMN_LENGTH]
+    columns = [c for c in _columns(base, Term(effect), rows) if c is not None and _length(c) > _MIN_COLUMN_LENGTH]
     clean = [(project(c), _length(c)) for c in columns]
     return [c / _length(c) for c, whole in clean if _length(c) > _NOTHING_LEFT * whole]
 
 
-def _columns(base: BaseFit, term: Term) -> list[Array | None]:
-    """Return the columns of a candidate near its typical size, for a grid of its constants."""
-    off = compute_residual_with(base, term, term.effect.neutral())
+def _columns(base: BaseFit, term: Term, rows: AveragedRows) -> list[Array | None]:
+    """Return the averaged columns of a candidate near its typical size, for a grid of its constants."""
+    off = compute_stacked_with(base, term, term.effect.neutral())
     points = [(p, small(term.effect, shape, p)) for shape in shapes(term.effect) for p in strengths(term.effect)]
-    return [None if off is None else compute_column(base, term, p, values, off) for p, values in points]
+    if off is None:
+        return [None] * len(points)
+    changes = (compute_change(lambda v: compute_stacked_with(base, term, v), term, p, v, off) for p, v in points)
+    return [None if change is None else rows.average(change) for change in changes]
 
 
 def _length(column: Array) -> float:
@@ -210,23 +214,25 @@ def _gauges_not_tried(state: Search) -> Iterator[tuple[str, str]]:
         yield f"faults of {named}", f"never tried{but}"
 
 
-def _without_response(state: Search, project: Callable[[Array], Array], lost: str) -> Iterator[tuple[str, str]]:
-    """Say why nothing came of the candidates that screening saw nothing in; that a sign was wrong is no reason.
+def _without_response(
+    state: Search, rows: AveragedRows, project: Callable[[Array], Array], lost: str
+) -> Iterator[tuple[str, str]]:
+    """Say why nothing came of the candidates that change nothing here beside the base; a wrong sign is no reason.
 
     What changes nothing that was measured may show in balances that were lost, as `_balances_not_judged` says.
     """
-    with_response = {s.term.effect.name for s in state.all_screened}
+    with_response = {s.term.effect.name for s in state.alone}
     reasons: dict[str, set[str]] = {}
     for term in (t for t in state.terms if t.effect.name not in with_response):
-        reasons.setdefault(term.effect.name, set()).add(_reason(state.base, term, project, lost))
+        reasons.setdefault(term.effect.name, set()).add(_reason(state.base, term, rows, project, lost))
     for name, found in reasons.items():
         if "" not in found:
             yield name, "; ".join(sorted(found))
 
 
-def _reason(base: BaseFit, term: Term, project: Callable[[Array], Array], lost: str) -> str:
+def _reason(base: BaseFit, term: Term, rows: AveragedRows, project: Callable[[Array], Array], lost: str) -> str:
     """Say why a candidate could not be tested; "" where it could, and explained nothing."""
-    columns = _columns(base, term)
+    columns = _columns(base, term, rows)
     with_response = [c for c in columns if c is not None and _length(c) > _MIN_COLUMN_LENGTH]
     if not columns or all(c is None for c in columns):
         return _failure(base, term)

@@ -6,15 +6,12 @@ import numpy as np
 
 from slipwise.campaign import measured_states
 from slipwise.comparison.measured_replay import choose_simulation_step, get_measured_motion
-from slipwise.comparison.system_level import build_replayed_model, compare_system_level
+from slipwise.comparison.system_level import SEED, build_replayed_model, compare_system_level
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.jobs.parallel import on_every_core
 from slipwise.model import Model
 from slipwise.record import Record
 from slipwise.simulation.replay import replay
-
-#: Of the noise that a replay is given [1].
-_SEED = 1
 
 
 def replays(base: BaseFit, final: BaseFit, added: Sequence[str]) -> tuple[Record, list[tuple[str, Record]]]:
@@ -61,7 +58,7 @@ def replayed_errors(
     """
 
     def error_of(place: int) -> float:
-        level = compare_system_level(fits[place], np.random.default_rng(_SEED))
+        level = compare_system_level(fits[place], np.random.default_rng(SEED))
         counted = [e for e in level.errors if e.role in roles and (e.channel == "slip_x" or "_Fx" in e.channel)]
         return float(np.sqrt(np.mean([e.error**2 for e in counted]))) if counted else float("nan")
 

@@ -9,9 +9,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.diagnosis.initial_grid import REFERENCES
 from slipwise.estimation.intervals import Interval, find_bound
+from slipwise.selection.hypothesis import Hypothesis
+from slipwise.selection.initial_grid import REFERENCES
 
 #: Factor, and share of the size: of 161 sizes that the bench planted 92.5 % lay inside such intervals, without it 78 %.
 _WIDER, _FORM = 1.5, 0.02

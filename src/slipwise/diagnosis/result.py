@@ -8,11 +8,8 @@ import numpy as np
 
 from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.alternatives import find_nearest_family, list_discriminating_tests, list_explanations
-from slipwise.diagnosis.importance import Importance
 from slipwise.diagnosis.ladder import Ladder, make_ladder
 from slipwise.diagnosis.replays import replays
-from slipwise.diagnosis.screening import Screened
-from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import ResidualSurface
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.display import Drawn, Tabular
@@ -23,7 +20,11 @@ from slipwise.model import Model
 from slipwise.noise.level import is_at_floor
 from slipwise.preparation.data_corrections import BEFORE_BALANCES, DataCorrection
 from slipwise.record import Record
+from slipwise.selection.explained_alone import ExplainedAlone
+from slipwise.selection.importance import Importance
+from slipwise.selection.search_state import Search
 
+#: Number of the format of diagnosis.json.
 SCHEMA = 2
 
 
@@ -72,6 +73,7 @@ class Diagnosis(Drawn, Tabular):
         search: everything that was looked at.
         final: the best hypothesis as a fit, for reports and replays.
         seconds: it took.
+        stages: what was done, in order -> how long it took [s].
         law: where the verdict is unknown: what `discover` proposes, for a program to read, or None.
     """
 
@@ -93,6 +95,7 @@ class Diagnosis(Drawn, Tabular):
     search: Search
     final: BaseFit
     seconds: float
+    stages: Mapping[str, float]
     law: Mapping[str, Any] | None = None
 
     @property
@@ -158,16 +161,17 @@ class Diagnosis(Drawn, Tabular):
         names = " and ".join(self.verdict.effects)
         error = "held-out error" if self.search.base.objective.held_out else "error on the runs that were fitted"
         fall = f"{error} {_short(self.recorded_error)} -> {_short(self.final_error)} times the noise floor"
+        beside = ", and something outside the catalogue" if self.verdict.unknown_beside else ""
         match self.verdict.kind:
             case "complete":
                 clean = is_at_floor(self.base_error) and not self.verdict.minor
                 least = "above the noise" if clean else "that matters"
                 return f"Nothing {least} is missing ({_short(self.base_error)} times the floor; {chance}){self._minor}."
             case "named":
-                more = "; form not exact" if self.verdict.leftover == "unknown" else ""
-                return f"The model lacks {names} ({chance}); {fall}{more}{self._minor}{self._bounds}."
+                more = "; form not exact" if self.verdict.leftover == "unknown" and not beside else ""
+                return f"The model lacks {names}{beside} ({chance}); {fall}{more}{self._minor}{self._bounds}."
             case "instrument":
-                return f"A gauge is at fault: {names} ({chance}); {fall}{self._minor}{self._bounds}."
+                return f"A gauge is at fault: {names}{beside} ({chance}); {fall}{self._minor}{self._bounds}."
             case "ambiguous":
                 rivals = " or ".join(" + ".join(e) for e in list_explanations(self.verdict, self.search))
                 return f"Either {rivals}: this campaign cannot tell them apart ({chance})."
@@ -214,8 +218,9 @@ class Diagnosis(Drawn, Tabular):
             "system": {k: _number(v) for k, v in self.system.items()},
             "importance": {name: _importance(found) for name, found in self.importance.items()},
             "candidates": [_candidate(c) for c in self.candidates],
-            "screened": [_screened(s) for s in self.search.screened],
+            "screened": [_screened(s) for s in self.search.alone],
             "leftover": verdict.leftover,
+            "unknown_beside": verdict.unknown_beside,
             "unknown": _surface(verdict.surface) if verdict.leftover == "unknown" else None,
             "law": None if self.law is None else dict(self.law),
             "predicted_friction": [_predicted_friction(f) for f in self.predicted_friction],
@@ -277,7 +282,7 @@ def _predicted_friction(found: PredictedFriction) -> dict[str, Any]:
     return {"run": found.run, **{k: _number(v) for k, v in numbers.items()}, "unit": "N"}
 
 
-def _screened(found: Screened) -> dict[str, Any]:
+def _screened(found: ExplainedAlone) -> dict[str, Any]:
     """Write what a candidate could explain alone, in squared residuals, and what the base parameters hide of it."""
     return {
         "effect": found.term.label,

@@ -12,7 +12,6 @@ from itertools import combinations
 import numpy as np
 
 from slipwise.arrays import Array
-from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.noise.independent_samples import SHORTEST_BLOCK
 from slipwise.relations.run_data import FitRun
 from slipwise.relations.table import Block
@@ -20,6 +19,7 @@ from slipwise.residual_map.field import ResidualField, take_field
 from slipwise.residual_map.ports import girder_states
 from slipwise.residual_map.splines import SplineBasis, choose_equal_bins
 from slipwise.residual_map.states import WORDS, DrivingState, measured_states, pad_instants, pad_states
+from slipwise.selection.hypothesis import Hypothesis
 
 #: Bins of a curve and of each side of a surface.
 _BINS_ONE, _BINS_TWO = 24, 10
@@ -90,16 +90,23 @@ def leftover(found: Hypothesis) -> ResidualSurface | None:
     return max(surfaces, key=lambda s: s.level, default=None)
 
 
-def above_noise(found: Hypothesis) -> dict[str, float]:
+def above_noise(found: Hypothesis, unexplained: Mapping[str, float]) -> dict[str, float]:
     """Return what a hypothesis leaves above the noise of each balance, over the rms of what the balance is made of [1].
+
+    What small imperfections explain, which are in every laboratory, is not counted.
 
     The noise is what the residuals of a repeated motion do not have in common, and at least `_NOISE`. The worst tenth
     of the time is left out: a pad that lands leaves much for a moment, a law that is missing leaves it throughout.
+
+    Args:
+        found: the hypothesis.
+        unexplained: relation -> share of what it leaves that small imperfections do not explain; all where not given.
     """
     out: dict[str, float] = {}
     objective = found.objective
     for relation in (r for r in objective.relations if r not in ("motion", "across")):
-        over = max(_usual_level(found, relation) - max(_NOISE, pure_error(found, relation)), 0.0)
+        left = unexplained.get(relation, 1.0) * _usual_level(found, relation)
+        over = max(left - max(_NOISE, pure_error(found, relation)), 0.0)
         level = float(np.median(np.concatenate([np.ravel(of.sigma) for of in _fitted(found, relation)])))
         out[relation] = float(np.sqrt(over) * level / max(_size(found, relation), 1e-30))
     return out

@@ -2,25 +2,26 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.findings import EffectFinding, compute_excess_over_noise
 from slipwise.diagnosis.held_out_regime import find_untestable_reason
-from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.indistinguishable import is_distinguishable, list_alike_pairs, list_known_effects
-from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.unknown_surface import ResidualSurface, leftover, structured
 from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
 from slipwise.estimation.objective import Objective
 from slipwise.evidence.acceptance import LEAST
-from slipwise.evidence.calibration import load_calibration
+from slipwise.evidence.calibration import compute_log_odds, load_calibration
 from slipwise.evidence.decision import EVEN_ODDS, decide, is_left
 from slipwise.evidence.score import compute_relative_drop
 from slipwise.instruments.suspects import effect_of
 from slipwise.preparation.sample_fault import SampleFault
 from slipwise.relations.parameters import Term
+from slipwise.selection.hypothesis import Hypothesis
+from slipwise.selection.search_state import Search
 
 #: Share of a probability that is left where no run is held out, which could have confirmed it [1].
 _UNCONFIRMED = 0.9
@@ -28,6 +29,8 @@ _UNCONFIRMED = 0.9
 _CARRIED_OVER = 0.5
 #: Mean squared residual of a held-out run over that of the motions left out, up to which they are left alike [1].
 _AS_LEFT_OUT = 1.5
+#: A posterior of some hundred draws says no more of an effect than these log-odds.
+_SUREST_ODDS = 6.0
 #: Error of a model in floors, and over that of the base model [1]: above both much is left unexplained.
 _MUCH = (3.0, 0.05)
 
@@ -46,6 +49,7 @@ class Verdict:
         surface: what remains, where anything does.
         rivals: hypotheses that nearly tie with the named one.
         findings: evidence for every effect that was found.
+        unknown_beside: whether what is left is more than that the named laws have not quite the right form.
     """
 
     kind: str
@@ -57,6 +61,7 @@ class Verdict:
     surface: ResidualSurface | None
     rivals: tuple[Hypothesis, ...]
     findings: tuple[EffectFinding, ...]
+    unknown_beside: bool = False
 
 
 def compute_explained_share_of_base(origin: Hypothesis, found: Hypothesis, relation: str = "") -> float:
@@ -80,7 +85,7 @@ def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materi
     origin, final = state.path[0], state.final
     surface = leftover(final)
     surface = surface if structured(surface) else None
-    rest = evidence_of_rest(origin, final, surface)
+    rest = evidence_of_rest(origin, final, surface, state.unexplained)
     of_effects = {f.name: evidence_of(f) for f in found if not f.at_limit}
     decided = decide(of_effects, rest, limits.channel, load_calibration())
     kind = decided.kind
@@ -94,12 +99,13 @@ def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materi
         kind,
         decided.named,
         decided.minor,
-        decided.probability if kind == "unknown" else _confirmed(state, decided.probability, rest),
+        decided.probability if kind == "unknown" or origin.objective.held_out else _UNCONFIRMED * decided.probability,
         "unknown" if is_left(rest, limits.channel) or nameless else "none",
         compute_explained_share_of_base(origin, final),
         surface,
         (),
         tuple(found),
+        decided.unknown_beside and kind != "unknown",
     )
     if kind == "unknown":  # what is drawn is all that is missing, not what unnamed effects have left of it
         whole = leftover(origin)
@@ -131,34 +137,36 @@ def evidence_of(finding: EffectFinding) -> dict[str, float]:
         "bound": float(bool(finding.at_bound)),
         "gauge": float(finding.is_gauge),
         "stays": finding.stays,
+        "inclusion": float(np.clip(compute_log_odds(finding.inclusion.matters), -_SUREST_ODDS, _SUREST_ODDS)),
+        "spread": min(finding.inclusion.spread, 1.0),
+        "seen": float(np.log(max(finding.inclusion.seen, 1e-2))),
+        "limits": float(np.log(max(finding.inclusion.size, 1e-2))),
+        "beside": float(np.log(finding.beside)),
         "size": float(np.log(max(finding.material, 1e-3))),
     }
 
 
-def evidence_of_rest(origin: Hypothesis, final: Hypothesis, surface: ResidualSurface | None) -> dict[str, float]:
+def evidence_of_rest(
+    origin: Hypothesis,
+    final: Hypothesis,
+    surface: ResidualSurface | None,
+    unexplained: Mapping[str, float] = MappingProxyType({}),
+) -> dict[str, float]:
     """Return the numbers on which rests whether the effects that were found are the right ones, whatever they leave.
 
     Args:
         origin: the base model.
         final: the model with the effects.
         surface: structure in what is left.
+        unexplained: relation -> share of what is left that small imperfections do not explain; all where not given.
     """
-    over = left_above_noise(final)
+    over = left_above_noise(final, unexplained)
     where = max(over, key=lambda relation: over[relation])
     return {
         "explained": compute_explained_share_of_base(origin, final, where) if final.terms else 0.0,
         "left": surface.explained if surface else 0.0,
         "relative": float(np.log(max(over[where], 1e-6))),
     }
-
-
-def _confirmed(state: Search, probability: float, rest: Mapping[str, float]) -> float:
-    """Return the probability of a verdict, less where the model leaves much or no held-out run has confirmed it."""
-    objective = state.final.objective
-    judged = _testable(objective) or objective.fitted
-    if state.final.terms and leaves_much(*_worst_errors(state, judged)):
-        probability = min(probability, load_calibration().family(rest))
-    return probability if objective.held_out else _UNCONFIRMED * probability
 
 
 def leaves_much(before: float, after: float) -> bool:

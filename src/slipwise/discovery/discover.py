@@ -11,7 +11,6 @@ from pathlib import Path
 
 from slipwise.campaign import Campaign
 from slipwise.diagnosis.diagnose import diagnose
-from slipwise.diagnosis.hypothesis_fit import make_fit
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.law import Law
@@ -27,9 +26,9 @@ from slipwise.estimation.objective import Objective
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
 from slipwise.noise.level import is_at_floor
-from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
 from slipwise.residual_map.states import MEASURED, WORDS, pad_instants, pad_states, rig_states
+from slipwise.selection.hypothesis_fit import make_fit
 
 #: Shares of the error above noise at which a law, a state, an organising state may be said [1].
 LAW, STATE, ORGANISED = 0.95, 0.9, 0.5
@@ -97,9 +96,8 @@ def discover(
         InputError: the campaign lacks what every fit needs.
     """
     tell = progress or (lambda words, share: None)
-    measured = prepare(campaign)
     if diagnosis is None:
-        diagnosis = diagnose(measured, model, own=own, progress=lambda words, share: tell(words, 0.5 * share))
+        diagnosis = diagnose(campaign, model, own=own, progress=lambda words, share: tell(words, 0.5 * share))
     began = time.perf_counter()
     starts = [diagnosis.final]
     state = diagnosis.search
@@ -112,7 +110,7 @@ def discover(
         if answers[-1].evidence in ("law", "nothing"):
             break
     best = max(answers, key=lambda answer: (_ORDER.index(answer.evidence), answer.share))
-    told = _held_against_the_others(measured.recorded.name, best)
+    told = _held_against_the_others(diagnosis.campaign, best)
     tell("done", 1.0)
     return replace(told, corrections=diagnosis.corrections, seconds=time.perf_counter() - began)
 
@@ -123,6 +121,7 @@ def diagnose_with_law(
     *,
     own: Iterable[Effect] = (),
     system: bool = False,
+    law: bool = True,
     progress: Callable[[str, float], None] | None = None,
 ) -> Diagnosis:
     """Say which effect a model lacks, and where the catalogue has none, which law its force follows.
@@ -132,17 +131,32 @@ def diagnose_with_law(
         model: the user's current model, or its model.toml; the paper's law on the campaign's rig when not given.
         own: effects beside those of the catalogue, as `slipwise.effects.find_effect` gives them.
         system: replay base and final model as well.
+        law: look for a law where the verdict is unknown; `add_law` does it later.
         progress: called with what is being done and the share done.
 
     Raises:
         InputError: the campaign lacks what every fit needs.
     """
-    measured = prepare(campaign)
-    found = diagnose(measured, model, own=own, system=system, progress=progress)
-    if found.verdict.kind != "unknown":
+    part = 0.7 if law else 1.0
+    tell = progress or (lambda words, share: None)
+    found = diagnose(campaign, model, own=own, system=system, progress=lambda words, share: tell(words, part * share))
+    found = add_law(found, lambda words, share: tell(words, part + (1.0 - part) * share)) if law else found
+    tell("done", 1.0)
+    return found
+
+
+def add_law(found: Diagnosis, progress: Callable[[str, float], None] | None = None) -> Diagnosis:
+    """Return a diagnosis with the law that its unknown force follows; another verdict as it is.
+
+    Args:
+        found: the diagnosis.
+        progress: called with what is being done and the share done.
+    """
+    if found.verdict.kind != "unknown" and not found.verdict.unknown_beside:
         return found
-    law = discover(measured, model, diagnosis=found)
-    return replace(found, law=law.proposal, seconds=found.seconds + law.seconds)
+    law = discover(found.search.base.campaign, diagnosis=found, progress=progress)
+    times = {**found.stages, "looking for a law": law.seconds}
+    return replace(found, law=law.proposal, seconds=found.seconds + law.seconds, stages=times)
 
 
 def _from(base: BaseFit) -> _Answer:

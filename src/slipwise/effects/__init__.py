@@ -7,7 +7,7 @@ from slipwise.effects._fault import GaugeFault
 from slipwise.effects._fields import NEEDS, Gauges, Limit
 from slipwise.effects._hooks import COMPONENTS, DERIVED, HOOKS, LAGGING, PAD_HOOKS, PAD_INPUTS, PORTS, RIG_MOTION
 from slipwise.effects._read import read_effect
-from slipwise.effects._scaled import holding, scaled
+from slipwise.effects._scaled import holding, scaled, scaled_to_gauge
 from slipwise.effects._skeleton import skeleton
 from slipwise.effects._states import BalanceStates
 from slipwise.effects._trust import Trust, check_trusted
@@ -45,6 +45,7 @@ __all__ = [
     "moved_channels",
     "read_effect",
     "scaled",
+    "scaled_to_gauge",
     "skeleton",
     "write_effect",
 ]

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
+from slipwise.channels import channel
 from slipwise.effects._catalogue import catalogue
 from slipwise.effects._effect import Effect
 from slipwise.params import Parameter
@@ -21,6 +22,21 @@ def scaled(effect: Effect, scale: Callable[[str], float], room: float) -> Effect
     if effect.name not in catalogue() or all(scale(p.unit) == 1.0 for p in effect.parameters):
         return effect
     return replace(effect, parameters=tuple(_scaled(p, scale(p.unit), room) for p in effect.parameters))
+
+
+def scaled_to_gauge(effect: Effect, target: str, scale: Callable[[str], float]) -> Effect:
+    """Return a gauge's fault that is counted in spans as one slider's gauge has them; itself where it is not.
+
+    Args:
+        effect: the fault.
+        target: a channel on which it sits.
+        scale: SI unit -> how many times larger such quantities are than in the reference rig [1].
+    """
+    factor = scale(channel(target).unit)
+    if effect.fault is None or not effect.fault.unit.startswith("channel") or factor == 1.0:
+        return effect
+    spans = tuple(_scaled(p, factor, 1.0) if p.neutral is not None else p for p in effect.parameters)
+    return replace(effect, parameters=spans)
 
 
 def _scaled(p: Parameter, factor: float, room: float) -> Parameter:

@@ -10,7 +10,7 @@ from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.campaign.scales import Scales, scales_of
 from slipwise.effects import catalogue, holding, scaled
 from slipwise.errors import InputError
-from slipwise.estimation.least_squares import Solution, compute_jacobian, get_slopes, solve
+from slipwise.estimation.least_squares import Solution, get_slopes, solve
 from slipwise.estimation.objective import Objective, make_objective
 from slipwise.model import Model, base_model, use_of
 from slipwise.relations.force_offset import free_zero
@@ -255,20 +255,6 @@ def restart_base_fit(base: BaseFit, values: Mapping[str, float]) -> BaseFit | No
     objective = base.objective.weigh(solution.values)
     again = solve(objective, solution.values, base.free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
     return replace(base, objective=objective, solution=again)
-
-
-def evaluate_at_rated(base: BaseFit) -> BaseFit:
-    """Return a base model that was not fitted: every number where its fit began.
-
-    Args:
-        base: the base fit, whose weights are kept.
-    """
-    objective, free = base.objective, base.free
-    values = {**base.solution.values, **{f.key: f.start for f in free}}
-    residuals = objective.residuals(values)
-    slopes = compute_jacobian(objective, values, free, residuals)
-    cost = residuals.cost(objective.fitted)
-    return replace(base, solution=Solution(values, free, residuals, slopes, cost, len(free) + 1))
 
 
 def _cost(objective: Objective, values: Mapping[str, float]) -> float:

@@ -36,6 +36,7 @@ from slipwise.relations.parameters import Free
 Shared = tuple[Array, NDArray[np.int64]]
 #: Fewer blocks than this many for each free number are no basis; blocks are then made shorter [1].
 _BLOCKS_EACH = 3
+#: How often an interval holds the truth [1].
 COVERAGE = 0.95
 #: Standard deviation of the timing that a pad and its cards share over a run: anywhere within +-`TIMING` [s].
 _SHARED_TIMING = TIMING / np.sqrt(3.0)
@@ -69,8 +70,7 @@ class Interval:
     @property
     def figures(self) -> int:
         """Figures to write it with: four, or so many that its half width keeps two and does not shrink to nothing."""
-        half, size = 0.5 * (self.high - self.low), max(abs(self.low), abs(self.high))
-        return max(4, int(np.ceil(np.log10(size / half))) + 2) if np.isfinite(half) and half > 0.0 else 4
+        return count_figures(self.low, self.high)
 
 
 @dataclass(frozen=True)
@@ -96,6 +96,12 @@ class Intervals:
         i, j = np.triu_indices(len(self.keys), 1)
         order = np.argsort(-np.abs(self.correlation[i, j]))[:count]
         return [(self.keys[i[o]], self.keys[j[o]], float(self.correlation[i[o], j[o]])) for o in order]
+
+
+def count_figures(low: float, high: float) -> int:
+    """Return the figures with which to write an interval: four, or so many that its half width keeps two."""
+    half, size = 0.5 * (high - low), max(abs(low), abs(high))
+    return max(4, int(np.ceil(np.log10(size / half))) + 2) if np.isfinite(half) and half > 0.0 else 4
 
 
 def compute_intervals(base: BaseFit) -> Intervals:

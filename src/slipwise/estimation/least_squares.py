@@ -15,7 +15,8 @@ from slipwise.relations.table import Residuals
 
 #: A fit is over when a step promises less than this much of the squared residual [1].
 _ENOUGH = 0.05
-_STEP = 1e-3
+#: Step of a difference quotient, as a share of what matters of a number [1].
+STEP = 1e-3
 
 
 class Fittable(Protocol):
@@ -127,7 +128,7 @@ def compute_jacobian(
     missing = [j for j, f in enumerate(free) if f.key not in taken]
 
     def column(j: int) -> Array:
-        step = _STEP * free[j].scale
+        step = STEP * free[j].scale
         if values[free[j].key] + step > free[j].high:
             step = -step
         there = nearby.residuals({**values, free[j].key: values[free[j].key] + step}, fitted_only=True)

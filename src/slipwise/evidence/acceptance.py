@@ -87,8 +87,3 @@ def _levels(summary: ResidualSummary) -> dict[str, tuple[float, int]]:
         total, samples = sums.get(name, (0.0, 0))
         sums[name] = total + summary.left_out[relation], samples + summary.counts[relation][0]
     return {name: (max(total / max(samples, 1), FLOOR), samples) for name, (total, samples) in sums.items()}
-
-
-def are_all_at_floor(summary: ResidualSummary) -> bool:
-    """Return whether nothing is left that could be worth a step."""
-    return all(summary.left_out_level(r) < 1.0 + LEAST.law for r in summary.fitted)

@@ -27,7 +27,7 @@ class Logistic:
     def __call__(self, evidence: Mapping[str, float]) -> float:
         """Return the probability; numbers that the model does not use are passed over."""
         odds = self.constant + sum(weight * evidence[name] for name, weight in self.weights.items())
-        return float(np.clip(1.0 / (1.0 + np.exp(-odds)), 0.01, 0.99))
+        return float(np.clip(compute_probability(odds), 0.01, 0.99))
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Calibration:
 
     Attributes:
         present: of an effect that was found: that it is there.
-        matters: of an effect that is there: that it matters. What was found because it seemed large is a little less.
+        matters: of an effect that was found: that it is there with the size that the posterior says.
         right_family: of effects that leave something with structure: that they are of the right family all the same.
         leads_rival: of a hypothesis: that it and not its nearest rival is right, by how many standard errors it leads.
         all_right: of a verdict, by the product of these chances: they are not independent.
@@ -65,6 +65,11 @@ def compute_log_odds(probability: float) -> float:
     """Return the log-odds of a probability, finite also at 0 and 1."""
     kept = float(np.clip(probability, 1e-6, 1.0 - 1e-6))
     return float(np.log(kept / (1.0 - kept)))
+
+
+def compute_probability(odds: float) -> float:
+    """Return the probability of log-odds."""
+    return float(1.0 / (1.0 + np.exp(-odds)))
 
 
 @cache

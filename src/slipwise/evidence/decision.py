@@ -1,9 +1,10 @@
 """From a few numbers for every effect to what is said: the part of a verdict that was calibrated.
 
 complete    nothing that matters was found, and nothing that matters is left
-unknown     what is left matters, and what was found explains too little of the balance in which it stands
+unknown     what is left matters, and nothing that was found is believed
 ambiguous   another effect is as likely in the place of one that is named
-named       effects that matter; `instrument` where all of them are faults of gauges
+named       effects that matter; `instrument` where all of them are faults of gauges; beside them something may be left
+            that the catalogue does not have
 """
 
 from collections.abc import Mapping
@@ -11,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from slipwise.evidence.calibration import Calibration
+from slipwise.evidence.calibration import Calibration, compute_probability
 
 #: What is more likely than this to be there and to matter is named, and so is a rival [1].
 EVEN_ODDS = 0.5
@@ -28,6 +29,7 @@ class Decision:
         named: effects that matter, most important first.
         minor: effects that are there and do not matter.
         tied: those of the named whose nearest rival is as likely.
+        unknown_beside: whether beside what is named something matters that has no name.
         probability: that kind and names are right.
     """
 
@@ -35,6 +37,7 @@ class Decision:
     named: tuple[str, ...]
     minor: tuple[str, ...]
     tied: tuple[str, ...]
+    unknown_beside: bool
     probability: float
 
 
@@ -49,26 +52,27 @@ def decide(
     """Decide what is missing.
 
     Args:
-        effects: name -> its evidence, most important first: "lead" and so on as the calibration asks, "size" (logarithm
-            of its importance over what matters), "gauge" (1 for a fault of gauges) and "rival" (standard errors by
-            which the nearest rival is behind).
+        effects: name -> its evidence, most important first: "lead" and so on as the calibration asks, "inclusion"
+            (log-odds of the posterior that it matters), "gauge" (1 for a fault of gauges) and "rival" (standard errors
+            by which the nearest rival is behind).
         rest: evidence on what is left: "relative" (logarithm of its share of what a balance is made of) and so on.
         least: share of a balance that matters [1].
         chances: the calibration.
     """
     sure = {name: chances.present(of) for name, of in effects.items()}
-    both = {name: sure[name] * chances.matters(of) for name, of in effects.items()}
+    both = {name: chances.matters(of) * compute_probability(of["inclusion"]) for name, of in effects.items()}
     named = tuple(name for name in effects if both[name] >= EVEN_ODDS)
     minor = tuple(name for name in effects if sure[name] >= _LISTED and name not in named)
     left = is_left(rest, least)
-    right = chances.family(rest) if left else 1.0
-    if left and (right < EVEN_ODDS or not named):
-        return Decision("unknown", (), minor, (), 1.0 - right)
+    exact = chances.family(rest) if left else 1.0
+    if left and not named:
+        return Decision("unknown", (), minor, (), False, 1.0 - exact)
+    right = max(exact, 1.0 - exact)
     for name in effects:  # what is not named would be wrong only if it were there and mattered
         right *= both[name] if name in named else 1.0 - both[name]
     probability = chances.whole(right)
     if not named:
-        return Decision("complete", (), minor, (), probability)
+        return Decision("complete", (), minor, (), False, probability)
     tied = tuple(name for name in named if chances.leads(effects[name]["rival"]) < EVEN_ODDS)
     kind = "instrument" if all(effects[name]["gauge"] for name in named) else "named"
-    return Decision("ambiguous" if tied else kind, named, minor, tied, probability)
+    return Decision("ambiguous" if tied else kind, named, minor, tied, left and exact < EVEN_ODDS, probability)

@@ -15,13 +15,12 @@ from slipwise.effects._gauges import span
 from slipwise.preparation.gauge_groups import find_places_of_gauges
 from slipwise.record import Record
 from slipwise.rig import Specimen
+from slipwise.rig.load_basis import RIGID_MODES
 
 #: The table's vertical motion is tied to the girder only through the pads' springs: its faults must be larger [1].
 _LOOSE = 3.0
 #: Units of sizes that matter the more the less a pad carries.
 _WITH_LOAD = ("N", "kg")
-#: Fewer pads carry no girder: their cells stand in no balance.
-_FEWEST = 3
 
 
 @dataclass(frozen=True)
@@ -100,7 +99,7 @@ def suspects(record: Record, specimen: Specimen, effects: Iterable[Effect]) -> l
 def _of_effect(effect: Effect, record: Record, load: float) -> Iterator[Suspect]:
     pads = pads_in(record.channels)
     for place, channels in find_places_of_gauges(effect, record).items():
-        if "*" in place and len(channels) < max(len(pads), _FEWEST):
+        if "*" in place and len(channels) < max(len(pads), RIGID_MODES):
             continue  # no balance holds part of a card
         if effect.gauges.sits == "pads":
             cells = [f"pad_{pad}_{kind}" for pad in pads for kind in ("N", "Fx")]
@@ -114,7 +113,7 @@ def _of_effect(effect: Effect, record: Record, load: float) -> Iterator[Suspect]
         for ending, other in effect.gauges.reads.items():
             # with a cell less no balance says whose reading it is
             cells = [f"pad_{pad}{kind}" for pad in pads for kind in (ending, other)]
-            if place.endswith(ending) and len(pads) >= _FEWEST and record.has_all(*cells):
+            if place.endswith(ending) and len(pads) >= RIGID_MODES and record.has_all(*cells):
                 yield from _forms(effect, place, f"{place} from {other[1:]}", channels, load)
 
 

@@ -21,7 +21,7 @@ from slipwise.noise.independent_samples import sum_sure_correlations
 from slipwise.record import Record
 from slipwise.signals.noise import difference_level, noise, ordinary, quantum, white_level
 
-#: Samples at rest that are enough to know a gauge's noise, and the least of one run that count.
+#: Samples at rest that are enough to know a gauge's noise, or to judge roll, and the least of one run that count.
 ENOUGH, _LEAST = 60, 24
 #: Samples at rest that show how noise is coloured.
 _ENOUGH_FOR_COLOUR = 200

@@ -15,10 +15,8 @@ from slipwise.campaign import Campaign, Run
 from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.preparation.sample_fault import SampleFault
 from slipwise.rig import Specimen
-from slipwise.rig.load_basis import basis_of
+from slipwise.rig.load_basis import RIGID_MODES, basis_of
 
-#: Loads of a rigid girder have so many degrees of freedom.
-_RIGID = 3
 #: The warp that nobody has seen, as a share of what a pad carries at rest: assumed [1].
 _UNSEEN_WARP = 0.05
 
@@ -109,9 +107,9 @@ def _lives(name: str, run: Run, masks: Mapping[str, InvalidSamples]) -> bool:
 def _weights(specimen: Specimen, loads: Sequence[str], name: str, alive: Sequence[str]) -> Array | None:
     """Return by which factors the loads of living cells give that of another one on a rigid girder, (k,)."""
     patterns = dict(zip(loads, (basis_of(specimen).rigid * np.array(specimen.springs)).T, strict=True))
-    if name not in patterns or len(alive) < _RIGID:
+    if name not in patterns or len(alive) < RIGID_MODES:
         return None
     living = np.stack([patterns[n] for n in alive])
-    if np.linalg.matrix_rank(living) < _RIGID:
+    if np.linalg.matrix_rank(living) < RIGID_MODES:
         return None
     return patterns[name] @ np.linalg.pinv(living)

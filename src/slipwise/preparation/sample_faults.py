@@ -16,18 +16,14 @@ from slipwise.preparation.sample_fault import SampleFault
 from slipwise.preparation.signs import find_wrong_signs
 from slipwise.preparation.synchronisation import LateChannels, find_late_cells, find_late_motion
 from slipwise.preparation.tare import find_shifted_zeros, find_tared_cells
-from slipwise.preparation.wrong_units import find_wrong_units
+from slipwise.preparation.wrong_units import LIKE_IT, find_wrong_units
 from slipwise.rig import Specimen
-from slipwise.rig.load_basis import basis_of
+from slipwise.rig.load_basis import RIGID_MODES, basis_of
 from slipwise.signals.noise import quantum, white_level
 from slipwise.signals.resample import slower_rate
 
 #: A pad's cell, and the share of what its like scatter below which it shows nothing but noise [1].
 _CELL, _IDLE = re.compile(r"pad_[A-Za-z0-9]+_(?P<kind>N|Fx|Fy)$"), 0.08
-#: Other cells of its kind that must be there to tell whether a cell is idle.
-_LIKE_IT = 2
-#: Other pads that tell how a rigid girder moves.
-_HOLD = 3
 #: A rail holds at least this many samples of a campaign, in one place at least that many, this part side by side [1].
 _RAIL, _LONG_RAIL, _BESIDE = 6, 15, 0.5
 #: A rail is met faster than this many standard deviations of noise, and this many steps of rounding, a sample [1].
@@ -133,7 +129,7 @@ def _idle_beside_its_like(name: str, run: Run, specimen: Specimen) -> bool:
     match = _CELL.match(name)
     pads = pads_in(run.record.channels)
     others = [f"pad_{p}_{match['kind']}" for p in pads if f"pad_{p}_{match['kind']}" != name] if match else []
-    if match is None or len(others) < _LIKE_IT or not run.record.has_all(*others):
+    if match is None or len(others) < LIKE_IT or not run.record.has_all(*others):
         return False
     moved = float(np.median([np.std(run.record[n]) for n in others]))
     if match["kind"] == "N" and specimen.free and set(pads) == set(specimen.pads):
@@ -147,7 +143,7 @@ def _expected(name: str, others: Sequence[str], run: Run, specimen: Specimen) ->
     A rigid girder says so by the place of three others, of which one may be dead itself where there are more; where
     there are two, its weight and its vertical acceleration do.
     """
-    if len(others) < _HOLD:
+    if len(others) < RIGID_MODES:
         if not run.record.has_all("girder_az"):
             return []
         held = specimen.carried_mass * (specimen.gravity + run.record["girder_az"])
@@ -155,7 +151,7 @@ def _expected(name: str, others: Sequence[str], run: Run, specimen: Specimen) ->
     rigid = basis_of(specimen).rigid * np.array(specimen.springs)
     patterns = {f"pad_{pad}_N": rigid[:, i] for i, pad in enumerate(specimen.pads)}
     found = []
-    for seen in (others, *([n for n in others if n != left] for left in others if len(others) > _HOLD)):
+    for seen in (others, *([n for n in others if n != left] for left in others if len(others) > RIGID_MODES)):
         loads = np.stack([run.record[n] for n in seen])
         found.append(patterns[name] @ np.linalg.lstsq(np.stack([patterns[n] for n in seen]), loads, rcond=None)[0])
     return found

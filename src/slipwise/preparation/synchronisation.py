@@ -43,7 +43,7 @@ _TURNED = 0.02
 #: states together explain it best a little beside that [samples].
 _BESIDE, _BESIDE_MOTION = 4, 3
 #: What is compared is slower than this: rigid, and above the noise of a differentiated slip [Hz].
-_SLOW = LowPass(8.0, 4, "aligned")
+_SLOW = 8.0
 #: Ends that the filter spoils [s], and samples that are enough between them.
 _END, _ENOUGH = 0.3, 200
 #: A lag that explains less than none by more than this share is contradicted [1].
@@ -183,11 +183,12 @@ def find_late_motion(campaign: Campaign) -> LateChannels | None:
 def _asked(record: Record) -> dict[str, _Asked]:
     """Return what may be late in a record; nothing where it lacks a channel or never moves."""
     dt = record.dt
-    if not record.has_all("slip_x", "girder_ax", "table_ax") or 2.5 * _SLOW.frequency * dt > 1.0:
+    if not record.has_all("slip_x", "girder_ax", "table_ax") or 2.5 * _SLOW * dt > 1.0:
         return {}
     inside = slice(round(_END / dt), -round(_END / dt))
-    girder, table = (lowpass(record[n], dt, _SLOW)[inside] for n in ("girder_ax", "table_ax"))
-    relative = lowpass(second_derivative(record["slip_x"], dt)[0], dt, _SLOW)[inside]
+    slow = LowPass(_SLOW, 4, "aligned")
+    girder, table = (lowpass(record[n], dt, slow)[inside] for n in ("girder_ax", "table_ax"))
+    relative = lowpass(second_derivative(record["slip_x"], dt)[0], dt, slow)[inside]
     if len(girder) < _ENOUGH or not all(np.isfinite(x).all() and np.ptp(x) > 0.0 for x in (girder, table, relative)):
         return {}
     return {

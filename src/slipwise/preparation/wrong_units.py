@@ -37,9 +37,11 @@ _OTHER: dict[str, tuple[str, ...]] = {
 _FACTORS = (9.80665, 4.448222, 25.4)
 #: Largest power of ten that is looked for; how far a factor may be from that of units, and a sure one [1].
 _LARGEST, _NEAR, _SURE = 9, 0.25, 0.03
-#: A card of cells is off by more than any girder could weigh or push; one cell differs from at least two others of its
-#: kind by its factor, within what pads differ by [1].
-_OF_CARD, _LIKE_IT, _ALIKE = 50.0, 2, 1.8
+#: Other cells of its kind that must be there to tell that one is idle or has another unit.
+LIKE_IT = 2
+#: A card of cells is off by more than any girder could weigh or push; one cell differs from its like by its factor,
+#: within what pads differ by [1].
+_OF_CARD, _ALIKE = 50.0, 1.8
 #: One cell moves like the others of its kind, by this correlation, and by more than so many times more or less [1].
 _TOGETHER, _UNLIKE = 0.9, 4.0
 #: Relations must hold that many times better with the channel put right, on their geometric mean [1].
@@ -119,13 +121,13 @@ def _unlike_its_card(runs: Sequence[PreparedRun]) -> WrongUnit | None:
     Where a balance fails for other reasons it cannot tell; pads that stand unevenly differ by less than such a factor.
     """
     for place, card in group_gauges(runs[0].record).items():
-        if "*" not in place or len(card) <= _LIKE_IT:
+        if "*" not in place or len(card) <= LIKE_IT:
             continue
         values = {n: np.concatenate([r.record[n] - np.mean(r.record[n]) for r in runs]) for n in card}
         size = {n: float(np.std(v)) for n, v in values.items()}
         for name in card:
             others = [values[n] / size[n] for n in card if n != name and size[n] > 0.0]
-            if size[name] == 0.0 or len(others) < _LIKE_IT:
+            if size[name] == 0.0 or len(others) < LIKE_IT:
                 continue
             ratio = size[name] / float(np.median([size[n] for n in card if n != name]))
             together = float(np.corrcoef(values[name], np.mean(others, axis=0))[0, 1])
@@ -162,7 +164,7 @@ def _is_possible(factor: float, names: Sequence[str], runs: Sequence[PreparedRun
         return min(factor, 1.0 / factor) < 1.0 / _OF_CARD
     kind = names[0].rpartition("_")[2]
     card = group_gauges(runs[0].record).get(f"pad_*_{kind}", ()) if names[0].startswith("pad_") else ()
-    if len(card) < _LIKE_IT + 1:
+    if len(card) < LIKE_IT + 1:
         return True
     moved = {name: float(np.median([np.std(run.record[name]) for run in runs])) for name in card}
     others = float(np.median([moved[name] for name in card if name != names[0]]))

@@ -15,6 +15,7 @@ from slipwise.record import Record
 from slipwise.regression.normal_equations import Block
 from slipwise.relations.rigid_balances import Relation
 from slipwise.rig import Specimen
+from slipwise.rig.load_basis import RIGID_MODES
 from slipwise.signals.filters import LowPass, lowpass
 
 #: Band in which channels are compared [Hz]: below the loggers' filters, above what the rig does.
@@ -25,8 +26,6 @@ _OF_FILTER, _OF_RATE = 0.6, 0.16
 _END, _INNER_END = 0.12, 0.7
 #: A pad below this part of its median load lifts; the rows around that are left out for this long [1, s].
 _LIFTED, _RINGING = 0.05, 0.2
-#: Fewer pads carry no girder that could lift.
-_FEWEST = 3
 #: Samples and rows that are kept, per period of the band's edge: derivatives need more than evidence.
 _KEPT, _ROWS = 6.0, 3.0
 
@@ -85,7 +84,7 @@ def _prepared(run: Run, aligned: AlignedRun, band: float, left_out: Mask) -> Pre
     good, quiet = aligned.measured[every] & ~_on(full.time, run.record.time, left_out)[every], aligned.quiet[every]
     pads = pads_in(record.channels)
     loads = [n for n in (f"pad_{pad}_N" for pad in pads) if n in record]
-    if len(loads) == len(pads) >= _FEWEST:
+    if len(loads) == len(pads) >= RIGID_MODES:
         lifted = np.any([record[n] < _LIFTED * np.median(record[n]) for n in loads], axis=0)
         good &= ~spread(lifted, int(0.02 / record.dt), int(_RINGING / record.dt))
     thin = np.zeros(len(record), dtype=bool)

@@ -24,6 +24,7 @@ from slipwise.arrays import Array
 from slipwise.campaign.rig_motion import shortening_rate
 from slipwise.effects import BalanceStates
 from slipwise.model import Model
+from slipwise.noise.gauges import ENOUGH
 from slipwise.relations.inverse_filter import Spectrum
 from slipwise.relations.pad_law import log_force
 from slipwise.relations.parameters import SEAT_STIFFNESS
@@ -44,8 +45,6 @@ BALANCES: tuple[str, ...] = ("girder", "heave", "pitch", "roll", *WARPS, "storey
 #: Where a gauge of friction is invalid, the girder's accelerometer takes its place if the two differ by more than this
 #: many times the accelerometer's noise [1].
 _SIGNIFICANT = 4.0
-#: Samples at rest by which roll is judged at least.
-_REST = 60
 
 
 def list_balances(specimen: Specimen) -> tuple[str, ...]:
@@ -64,7 +63,7 @@ def list_available_balances(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
         out.append("girder")
     if np.isfinite(run.states.girder_acceleration[:, 2]).all():
         out.append("heave")
-    rests = not is_rolling_only_at_rest(run.states.has_y, specimen) or np.count_nonzero(run.judged["roll"]) >= _REST
+    rests = not is_rolling_only_at_rest(run.states.has_y, specimen) or np.count_nonzero(run.judged["roll"]) >= ENOUGH
     out += (["pitch"] if framed else []) + (["roll"] if rests else [])
     out += warps(specimen)
     if specimen.storeys and "girder" in out:

@@ -30,16 +30,21 @@ TIMING = 1e-4
 _SPREAD = 0.5
 
 
-def compute_reversal_noise(run: FitRun, plain: Array, shifted: Array) -> Array:
+def compute_reversal_noise(run: FitRun, plain: Array, slower: Array, faster: Array) -> Array:
     """Return the uncertainty of friction where pads reverse (n, p) [N]: errors of velocity and timing.
+
+    Velocities may be wrong either way, and a reversal that one error hides the other one shows: both count, as the mean
+    of their squares, so that nothing depends on which way x points.
 
     Args:
         run: its step and filter.
         plain: (n, p) predicted by the law [N].
-        shifted: (n, p) predicted with velocities that are wrong by as much as they may be [N].
+        slower: (n, p) predicted with velocities along x that are one expected error too small [N].
+        faster: (n, p) the same with velocities that are one expected error too large [N].
     """
     timing = np.hypot(TIMING * run.scales.time, run.unseen / np.sqrt(12.0))
-    squared = (shifted - plain) ** 2 + (timing * np.gradient(plain, run.dt, axis=0)) ** 2
+    velocity = 0.5 * ((slower - plain) ** 2 + (faster - plain) ** 2)
+    squared = velocity + (timing * np.gradient(plain, run.dt, axis=0)) ** 2
     if run.filtered is not None:
         reach = int(np.ceil(_SPREAD / (run.filtered.frequency * run.dt)))
         # a few newtons beside a reversal, the same at every reversal, are below one sample's noise but bend the fit

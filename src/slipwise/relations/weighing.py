@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from slipwise.arrays import Array
+from slipwise.model import Model
 from slipwise.relations.kinematics import CORRECTED, RIG_MOTIONS, STATES, compute_compliance, compute_pad_states
 from slipwise.relations.measurement import apply_on_force, compute_change_by_faults
 from slipwise.relations.noise import (
@@ -47,15 +48,13 @@ def weigh(evaluation: Evaluation) -> Weighing:
     model = build_fitted_model(measurements.specimen, evaluation.terms, values)
     states, law_forces = evaluation.of(STATES), evaluation.of(LAW_FORCES)
     faults = tuple(term for term in evaluation.terms if is_fault_of_friction(term))
-    inputs, law = evaluation.inputs(LOGGED_FORCES), predictor(model)
-    faster = compute_pad_states(inputs, 1.0)
-    motions = evaluation.of(RIG_MOTIONS) if law.asks_for_motion else None
+    inputs = evaluation.inputs(LOGGED_FORCES)
     plain = compute_logged_forces(inputs, states, law_forces, 0.0)
-    shifted = compute_logged_forces(inputs, faster, drive_law(law, runs, faster, motions), 0.0)
-    for forces in (plain, shifted):  # a delayed gauge shows its reversals, and their noise, later too
+    slower, faster = (_compute_shifted_forces(evaluation, model, errors) for errors in (-1.0, 1.0))
+    for forces in (plain, slower, faster):  # a delayed gauge shows its reversals, and their noise, later too
         for i, run in enumerate(runs):
             forces[i] = forces[i] + apply_on_force(faults, values, run, forces[i])[1]
-    reversal = [compute_reversal_noise(*each) for each in zip(runs, plain, shifted, strict=True)]
+    reversal = [compute_reversal_noise(*each) for each in zip(runs, plain, slower, faster, strict=True)]
     sigmas = {"pads": tuple(compute_pad_noise(*each) for each in zip(runs, plain, reversal, strict=True))}
     ringing: dict[str, tuple[Array, ...]] = {}
     if measurements.balanced:
@@ -67,6 +66,21 @@ def weigh(evaluation: Evaluation) -> Weighing:
     if "across" in measurements.relations:
         sigmas["across"] = tuple(compute_noise_across(*each) for each in zip(runs, states, law_forces, strict=True))
     return replace(begun, sigmas=sigmas, ringing=ringing)
+
+
+def _compute_shifted_forces(evaluation: Evaluation, model: Model, errors: float) -> list[Array]:
+    """Return the pads' forces along x as logged, with velocities so many expected errors too large, per run (n, p) [N].
+
+    Args:
+        evaluation: with the runs.
+        model: of its terms and numbers.
+        errors: that are added, with their sign [1].
+    """
+    inputs, law = evaluation.inputs(LOGGED_FORCES), predictor(model)
+    states = compute_pad_states(inputs, errors)
+    motions = evaluation.of(RIG_MOTIONS) if law.asks_for_motion else None
+    found = drive_law(law, evaluation.of(CORRECTED).runs, states, motions)
+    return compute_logged_forces(inputs, states, found, 0.0)
 
 
 def _with_lost_velocity(evaluation: Evaluation) -> Weighing:

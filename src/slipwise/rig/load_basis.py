@@ -14,6 +14,8 @@ from slipwise.rig.specimen import Specimen
 _SAME = 1e-9
 #: Loads at rest that pads of unlike heights make, below this share of the weight, are none [1].
 _WARPED = 1e-6
+#: Loads of a rigid girder have so many degrees of freedom, heave, pitch and roll: fewer pads carry none.
+RIGID_MODES = 3
 #: What the warps are called: of n pads the first n - 3.
 WARPS: tuple[str, ...] = ("warp", *(f"warp_{k}" for k in range(2, MOST_PADS - 2)))
 

@@ -14,10 +14,14 @@ from numpy.typing import NDArray
 from slipwise.arrays import Array
 from slipwise.estimation.objective import Objective
 
-#: Rows a second at most [Hz]: above it a relation tells of resonances of gauges and cards.
+#: Rows a second at most [Hz]: above it a girder's relations tell of resonances of gauges and cards.
 BAND = 70.0
+#: Rows of a run of one slider at most: its test may last a millisecond or a year.
+_MOST = 5000
 #: Frequencies of the mains [Hz].
 _MAINS = (50.0, 60.0)
+#: A record of fewer periods of them would lose motion with the hum.
+_PERIODS = 50
 #: A series with fewer samples that are judged tells nothing.
 _LEAST = 8
 
@@ -85,7 +89,7 @@ def make_averaged_rows(objective: Objective) -> AveragedRows:
         noise = block.noise.reshape(len(block.time), -1)
         number = relations.index(block.relation)
         samples[number] += np.count_nonzero(mask)
-        each = max(1, round(1.0 / (BAND * block.dt)))
+        each = max(1, round(1.0 / (BAND * block.dt)) if objective.balanced else len(block.time) // _MOST)
         for column in range(width):
             judged = np.flatnonzero(mask[:, column])
             if len(judged) < _LEAST:
@@ -103,8 +107,8 @@ def make_averaged_rows(objective: Objective) -> AveragedRows:
 
 
 def _hum(time: Array, dt: float) -> Array:
-    """Return waves of the mains (n, 4), orthonormal; (0, 0) where sampling does not show them."""
-    if dt * 2.0 * max(_MAINS) > 0.95:
+    """Return waves of the mains (n, 4), orthonormal; (0, 0) where sampling or a record's length does not show them."""
+    if dt * 2.0 * max(_MAINS) > 0.95 or float(np.ptp(time)) * min(_MAINS) < _PERIODS:
         return np.zeros((0, 0))
     waves = [wave(2.0 * np.pi * hertz * time) for hertz in _MAINS for wave in (np.sin, np.cos)]
     return np.linalg.qr(np.stack(waves, axis=1))[0]

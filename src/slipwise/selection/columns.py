@@ -11,17 +11,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.arrays import Array
-from slipwise.diagnosis.initial_grid import shapes, strengths, two_sided
-from slipwise.diagnosis.sensitivities import compute_change, compute_stacked_with, small
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.jobs.parallel import on_every_core
 from slipwise.params import Parameter
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows
+from slipwise.selection.initial_grid import is_lag, shapes, strengths, two_sided
+from slipwise.selection.sensitivities import compute_change, compute_stacked_with, small, typical
 
 FloatArray = NDArray[np.float32]
 
 
+#: Multiples of the typical strength at which a candidate is tried whose effect is far from a straight line.
+FULL_SIZES: tuple[float, ...] = (-4.0, -1.0, 1.0, 4.0)
+#: A change of this size at most is round-off: what a candidate changes may still show beside another effect [noise].
+_ROUND_OFF = 1e-9
 #: Number of the form of an effect that is in the model: its constants are those of the fit.
 OF_MODEL = -2
 
@@ -42,6 +46,7 @@ class CandidateColumn:
         unit: strength that is one limit, signed as the column was taken [the parameter's unit]; of an effect of the
             model the share of its fitted size.
         column: (q,) change of the averaged residual by one unit [noise].
+        numbers: how many were fitted beside its size, where it is the change of a whole fit.
     """
 
     label: str
@@ -54,6 +59,7 @@ class CandidateColumn:
     two_sided: bool
     unit: float
     column: FloatArray
+    numbers: int = 0
 
 
 def make_column(
@@ -77,16 +83,34 @@ class CandidateForm:
         term: the candidate.
         number: of the form among the candidate's.
         shape: values of its constants.
+        size: at which its columns are taken [typical strength]; 0 for a small one, from which a straight line goes on.
     """
 
     term: Term
     number: int
     shape: Mapping[str, float]
+    size: float = 0.0
 
 
-def list_forms(terms: Sequence[Term]) -> list[CandidateForm]:
-    """Return the forms of candidates that are tried first."""
-    return [CandidateForm(t, number, shape) for t in terms for number, shape in enumerate(shapes(t.effect))]
+def list_forms(base: BaseFit, terms: Sequence[Term], *, late: bool = False) -> list[CandidateForm]:
+    """Return the forms of candidates that are tried first.
+
+    A girder that friction holds until its buffers are unlike enough does not turn where they are nearly alike, and a
+    gauge that lags by a third of a period changes little or the opposite of what a small lag does: such candidates are
+    tried at full size too.
+
+    Args:
+        base: the fit from which the candidates depart.
+        terms: candidates.
+        late: gauges' lags too; else these are tried so once they explain something.
+    """
+    out = [CandidateForm(t, number, shape) for t in terms for number, shape in enumerate(shapes(t.effect))]
+    for term in terms:
+        turns = base.objective.adding(term).makes_yaw != base.objective.makes_yaw and len(shapes(term.effect)) == 1
+        if turns or (late and is_lag(term.effect)):
+            most = sum(form.term is term for form in out)
+            out += [CandidateForm(term, most + k, shapes(term.effect)[0], size) for k, size in enumerate(FULL_SIZES)]
+    return out
 
 
 def compute_raw_columns(base: BaseFit, forms: Sequence[CandidateForm], rows: AveragedRows) -> list[CandidateColumn]:
@@ -123,9 +147,17 @@ def _columns_of(
         left = bare
     for form in forms:
         for moved in strengths(term.effect):
+            off = float(moved.neutral or 0.0)
             values = small(term.effect, form.shape, moved)
-            step = values[moved.name] - float(moved.neutral or 0.0)
-            change = compute_change(lambda v: compute_stacked_with(base, term, v), term, moved, values, left)
-            if change is not None and np.any(change):
+            if form.size:
+                values[moved.name] = off + form.size * (typical(term.effect, moved) - off)
+                if not moved.low <= values[moved.name] <= moved.high:
+                    continue
+                there = compute_stacked_with(base, term, values)
+                change = None if there is None else there - left
+            else:
+                change = compute_change(lambda v: compute_stacked_with(base, term, v), term, moved, values, left)
+            step = values[moved.name] - off
+            if change is not None and np.abs(change).max() > _ROUND_OFF:
                 out.append((form.number, moved.name, values, step, rows.average(change).astype(np.float32)))
     return out

@@ -7,17 +7,18 @@ import numpy as np
 
 from slipwise.arrays import Array, Mask
 from slipwise.campaign.materiality import Materiality
-from slipwise.diagnosis.hypothesis import Hypothesis
-from slipwise.diagnosis.hypothesis_fit import make_fit
-from slipwise.diagnosis.initial_grid import strengths
-from slipwise.diagnosis.sensitivities import evaluate_stacked
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.relations.measurement import is_shifting
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import OF_MODEL, CandidateColumn, make_column
+from slipwise.selection.hypothesis import Hypothesis
+from slipwise.selection.hypothesis_fit import make_fit
+from slipwise.selection.initial_grid import strengths
+from slipwise.selection.sensitivities import evaluate_stacked
 from slipwise.selection.statistics import Statistics, compute_statistics
 from slipwise.selection.units import compute_sizes_in_place
+from slipwise.selection.whole_fits import make_fit_without
 
 #: Standard deviations of a rated mass, and of the constants of an effect in the model, as shares of the values [1].
 _MASS, _CONSTANTS = 0.03, 0.05
@@ -79,16 +80,21 @@ def linearise(
     left = fitted = rows.average(stacked)
     keys = [f.key for f in solution.free]
     own: list[CandidateColumn] = []
-    sizes = compute_sizes_in_place(here, found.terms, limits) if found.terms else {}
+    laws = {t.label: make_fit_without(base, found, t) for t in found.terms if t.effect.replaces}
+    sizes = compute_sizes_in_place(here, found.terms, laws, limits) if found.terms else {}
     for term in found.terms:
         if sizes[term.label] > 0.0:
-            whole = _whole_effect(here, term, rows, slopes, stacked)
+            if term.label in laws:
+                whole = rows.average(stacked - laws[term.label].solution.residuals.stacked(objective.fitted))
+            else:
+                whole = _whole_effect(here, term, rows, slopes, stacked)
             column = whole / sizes[term.label]
             own.append(make_column(term, OF_MODEL, None, found.values_of(term), 1.0 / sizes[term.label], column))
             left = left - whole
     labels = {t.label for t in found.terms}
     strong = {f"{t.label}.{p.name}" for t in found.terms for p in strengths(t.effect)}
-    free = [j for j, key in enumerate(keys) if key not in strong]  # of a strength the whole effect tells
+    ends = set(solution.at_bounds)  # what has run against a bound makes up for nothing
+    free = [j for j, key in enumerate(keys) if key not in strong | ends]  # of a strength the whole effect tells
     of_base = np.array([keys[j].rpartition(".")[0] not in labels for j in free], bool)
     kept, tolerances = slopes[:, free], _tolerances(found, [keys[j] for j in free])
     every = (*columns, *own)

@@ -17,7 +17,7 @@ Cui et al. (2024), Nature Genetics 56:162 (a background of small causes beside f
 JASA 114 (coarsened posterior).
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from slipwise.arrays import Array
 from slipwise.selection.columns import OF_MODEL, CandidateColumn
 from slipwise.selection.sampler import sample_places
-from slipwise.selection.statistics import Statistics
+from slipwise.selection.statistics import Statistics, compute_left_by_base
 
 Ints = NDArray[np.int64]
 
@@ -128,7 +128,7 @@ class Effort:
 
     chains: int = 6
     sweeps: int = 60
-    draws: int = 400
+    draws: int = 1600
     rounds: int = 3
 
 
@@ -140,6 +140,7 @@ def compute_posterior(
     statistics: Statistics,
     columns: Sequence[CandidateColumn],
     tolerances: Mapping[int, tuple[float, float]],
+    apart: Collection[tuple[str, str]] = (),
     effort: Effort | None = None,
 ) -> Posterior:
     """Sample what is missing.
@@ -153,6 +154,7 @@ def compute_posterior(
         columns: of the candidates, in units of materiality.
         tolerances: place of a base number -> how far its rated value lies from the fitted one, and its standard
             deviation about that [its scale].
+        apart: labels of terms that cannot be in one model, in both orders.
         effort: how thoroughly it is sampled.
     """
     prior, effort = Prior(), effort or Effort()
@@ -161,7 +163,16 @@ def compute_posterior(
     effects = forms.effects
     shared = {e: effects.count(e) for e in effects}
     per_form = np.bincount(forms.owner, minlength=len(forms.labels))
-    odds = np.log([prior.chance / shared[effects[t]] / per_form[t] / prior.places for t in forms.owner])
+    whole = np.array([not columns[of].strength for of in forms.columns[:, 0]])
+    among = np.where(whole, 1, per_form[forms.owner])  # a whole fit is at its best form, and pays for its numbers
+    odds = np.log([prior.chance / shared[effects[t]] / prior.places for t in forms.owner]) - np.log(among)
+    # numbers that were fitted with a form cost what they do in any choice of a model (Schwarz 1978, Ann. Stat. 6)
+    numbers = np.array([columns[of].numbers for of in forms.columns[:, 0]])
+    odds -= 0.5 * numbers * np.log(prior.independent)
+    excludes = np.eye(len(forms.labels), dtype=np.bool_)
+    for one, other in apart:
+        if one in forms.labels and other in forms.labels:
+            excludes[forms.labels.index(one), forms.labels.index(other)] = True
     one_sided = np.array([not c.two_sided for c in columns])
     small = np.where(forms.gauge, prior.trifle_of_gauges, prior.trifle)
     trifle = np.empty(len(columns))
@@ -191,7 +202,7 @@ def compute_posterior(
         chains, sweeps = (effort.chains, effort.sweeps) if last else (2, 15)
         visited = [
             sample_places(
-                precision, pulled, forms.columns, forms.length, forms.owner, odds, widths, odds_of, one_sided,
+                precision, pulled, forms.columns, forms.length, forms.owner, excludes, odds, widths, odds_of, one_sided,
                 as_fitted if chain % 2 == 0 else none, sweeps, chain,
             )
             for chain in range(chains)
@@ -234,8 +245,11 @@ def _draw(
         if not members:
             continue
         j = np.array([m[0] for m in members])
-        covariance = np.linalg.inv(precision[np.ix_(j, j)] + np.diag([m[1] ** -2.0 for m in members]))
-        found = rng.multivariate_normal(covariance @ pulled[j], covariance, size=len(at), method="svd")
+        known = precision[np.ix_(j, j)] + np.diag([m[1] ** -2.0 for m in members])
+        curvatures, axes = np.linalg.eigh(0.5 * (known + known.T))
+        curvatures = np.maximum(curvatures, widths[-1] ** -2.0)  # what the data say of nothing is round-off
+        middle = axes @ ((axes.T @ pulled[j]) / curvatures)
+        found = middle + rng.standard_normal((len(at), len(j))) @ (axes / np.sqrt(curvatures)).T
         sizes[np.ix_(at, j)] = np.where(one_sided[j], np.maximum(found, 0.0), found)
     return np.where(states[picked] >= 0, states[picked] // len(widths), -1), sizes
 
@@ -246,7 +260,7 @@ def _as_posterior(
     shape = len(taken), len(forms.labels)
     size, seen = np.zeros(shape), np.zeros(shape)
     chosen = np.full(shape, -1)
-    rest = _left_by_base(statistics)
+    rest = compute_left_by_base(statistics)
     for f in np.unique(taken[taken >= 0]):
         at = np.flatnonzero((taken == f).any(axis=1))
         members = forms.columns[f, : forms.length[f]]
@@ -257,19 +271,3 @@ def _as_posterior(
         seen[at, t] = np.sqrt(np.maximum(squares.max(axis=1), 0.0))
         chosen[at, t] = forms.number[f]
     return Posterior(forms.labels, forms.effects, size, seen, chosen, sizes, level, gain)
-
-
-def _left_by_base(statistics: Statistics) -> Array:
-    """Return what a fit of the base numbers leaves of the products of columns, (r, K, K), a judged sample each."""
-    base = statistics.base
-    rig = np.flatnonzero(statistics.of_base)
-    whole = statistics.products.sum(axis=0)
-    own = whole[np.ix_(rig, rig)]
-    own = own + np.diag(1e-9 * np.diag(own) + 1e-9)
-    q = np.linalg.solve(own, whole[rig, base:])
-    out = []
-    for product, samples in zip(statistics.products, statistics.samples, strict=True):
-        cross = product[base:][:, rig] @ q
-        left = product[base:, base:] - cross - cross.T + q.T @ product[np.ix_(rig, rig)] @ q
-        out.append(left / max(samples, 1.0))
-    return np.array(out)

@@ -7,37 +7,45 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.materiality import Materiality
-from slipwise.diagnosis.hypothesis import Hypothesis, make_base_hypothesis, refit
-from slipwise.diagnosis.hypothesis_fit import make_fit
-from slipwise.diagnosis.initial_grid import REFERENCES, is_placed, strengths
-from slipwise.diagnosis.pairs import at_odds
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import solve, with_slopes
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows, make_averaged_rows
+from slipwise.selection.candidates import at_odds, list_exclusions
 from slipwise.selection.columns import (
+    FULL_SIZES,
     OF_MODEL,
     CandidateColumn,
     CandidateForm,
     compute_raw_columns,
     list_forms,
 )
+from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, refit
+from slipwise.selection.hypothesis_fit import make_fit
+from slipwise.selection.initial_grid import REFERENCES, is_lag, is_placed, strengths
 from slipwise.selection.linearisation import Linearisation, linearise
 from slipwise.selection.posterior import QUICK, Posterior, compute_posterior
+from slipwise.selection.sensitivities import typical
 from slipwise.selection.statistics import scale_columns
-from slipwise.selection.units import compute_shares_of_sizes, compute_units
+from slipwise.selection.units import compute_shares_of_sizes, compute_units, compute_units_of_fits
+from slipwise.selection.whole_fits import compute_columns_of_fits, fit_whole, is_told_by_whole_fit
 
 #: Likelier than this to be of so many limits and floors: it takes part in the next linearisation.
 _LIKELY, _LIMITS, _FLOORS = 0.2, 0.6, 0.5
 #: Likelier than this to be no trifle: its unit is replayed at its own form and size, and its column is taken anew.
 _WORTH_A_REPLAY = 0.05
-_MOST, _ROUNDS = 9, 3
+#: Effects that take part in a linearisation at most, and how often it is done again.
+MOST_EFFECTS, _ROUNDS = 9, 3
+#: Linearisations of one slider at most, whose effects are added one at a time.
+_STEPS = 5
 #: Factors by which place or frequency, and width, of a law's best form are moved, one pair after the other [1].
 _FINER = ((1.07, 2.0), (1.035, 2.0), (1.018, 1.4))
 #: A form is looked at more closely where it would explain so much [nats].
 _WORTH_A_LOOK = 0.5
 #: An effect that does this many times more in another run than in the last is replayed there too [1].
 _MUCH_MORE = 1.5
+#: A whole fit that changes a smaller share of what matters is none: to bring it to one limit would bring up round-off.
+_NOTHING = 1e-3
 #: A unit that a replay changes by less than this factor stays.
 _SAME_UNIT = 1.2
 
@@ -47,10 +55,12 @@ class ProposedModel:
     """What a campaign proposes.
 
     Attributes:
+        origin: at the base model.
         linearisation: the last one.
         posterior: over what is in its model and beside it.
     """
 
+    origin: Linearisation
     linearisation: Linearisation
     posterior: Posterior
 
@@ -68,22 +78,31 @@ def propose(base: BaseFit, terms: Sequence[Term], limits: Materiality) -> Propos
         terms: candidates.
         limits: what matters.
     """
-    terms = [t for t in terms if not t.effect.replaces]
     rows = make_averaged_rows(base.objective)
     origin = make_base_hypothesis(base)
-    raw = compute_raw_columns(base, list_forms(terms), rows)
+    whole = fit_whole(base, terms)
+    raw = [*compute_raw_columns(base, list_forms(base, terms), rows), *compute_columns_of_fits(base, whole, rows)]
     most = _find_runs_of_most(raw, rows)
-    units = compute_units(base, terms, limits, most)
+    units = compute_units(base, terms, whole, limits, most)
     here = linearise(base, origin, rows, _in_units(raw, units, rows), limits)
     here, posterior = _weighed(base, terms, here, limits, most)
-    for _ in range(_ROUNDS):
-        starts = list_likely(here, terms, posterior)
+    first = here
+    for _ in range(_ROUNDS if base.objective.balanced else _STEPS):
+        starts = _leave_one_chord(here, posterior, list_likely(here, terms, posterior))
         if set(starts) == {t.label for t in here.hypothesis.terms}:
             break
         found = _refitted(base, [t for t in terms if t.label in starts], starts) if starts else origin
         here = _linearised_again(base, here, found, terms, units, posterior, limits)
         here, posterior = _weighed(base, terms, here, limits, most)
-    return ProposedModel(here, posterior)
+    return ProposedModel(first, here, posterior)
+
+
+def compute_unexplained(proposal: ProposedModel) -> dict[str, float]:
+    """Return relation -> share of what the model leaves that small imperfections of everything do not explain [1]."""
+    here = proposal.linearisation
+    left = here.statistics.fitted / np.maximum(here.statistics.rows, 1.0)
+    shares = np.where(left > 0.0, proposal.posterior.level / np.maximum(left, 1e-12), 1.0)
+    return {r: float(min(share, 1.0)) for r, share in zip(here.rows.relations, shares, strict=True)}
 
 
 def _refitted(base: BaseFit, terms: Sequence[Term], starts: Mapping[str, Mapping[str, float]]) -> Hypothesis:
@@ -101,7 +120,8 @@ def _weighed(
     most: Mapping[str, int],
 ) -> tuple[Linearisation, Posterior]:
     """Compute the posterior, with units of what may matter replayed at the size and form that it says."""
-    posterior = compute_posterior(here.statistics, here.columns, here.tolerances, QUICK)
+    apart = list_exclusions(terms)
+    posterior = compute_posterior(here.statistics, here.columns, here.tolerances, apart, QUICK)
     of = {t.label: t for t in terms}
     for finer in _FINER:
         closer = _closer_forms(here, of, posterior, finer)
@@ -109,7 +129,7 @@ def _weighed(
             break
         raw = compute_raw_columns(make_fit(base, here.hypothesis, with_slopes=False), closer, here.rows)
         here = here.with_columns([*here.beside, *_like_neighbours(raw, here.beside, here.rows)])
-        posterior = compute_posterior(here.statistics, here.columns, here.tolerances, QUICK)
+        posterior = compute_posterior(here.statistics, here.columns, here.tolerances, apart, QUICK)
     done = set[tuple[str, int]]()
     for _ in range(2):
         asked = {k: v for k, v in _worth_a_replay(here, of, posterior).items() if k not in done}
@@ -130,8 +150,8 @@ def _weighed(
             for c, f in zip(here.columns, factors, strict=True)
         )
         here = replace(here, columns=columns, statistics=scale_columns(here.statistics, factors))
-        posterior = compute_posterior(here.statistics, here.columns, here.tolerances, QUICK)
-    posterior = compute_posterior(here.statistics, here.columns, here.tolerances)
+        posterior = compute_posterior(here.statistics, here.columns, here.tolerances, apart, QUICK)
+    posterior = compute_posterior(here.statistics, here.columns, here.tolerances, apart)
     return here, posterior
 
 
@@ -150,7 +170,9 @@ def _find_runs_of_most(raw: Sequence[CandidateColumn], rows: AveragedRows) -> di
 def _closer_forms(
     here: Linearisation, of: Mapping[str, Term], posterior: Posterior, finer: tuple[float, float]
 ) -> list[CandidateForm]:
-    """Return forms about the best one of every law that acts at a place or a frequency: from afar it is hardly seen.
+    """Return forms about the best one of every law that acts at a place or a frequency, and of every lag of a gauge.
+
+    From afar a place or a frequency is hardly seen, and a lag is no straight line.
 
     Args:
         here: a linearisation.
@@ -160,8 +182,8 @@ def _closer_forms(
     """
     out: list[CandidateForm] = []
     for label, term in of.items():
-        members = [i for i, c in enumerate(here.columns) if c.label == label and c.form != OF_MODEL]
-        if not is_placed(term.effect) or not members:
+        members = [i for i, c in enumerate(here.columns) if c.label == label and c.form != OF_MODEL and c.strength]
+        if not members or not (is_placed(term.effect) or is_lag(term.effect)):
             continue
         top = max(members, key=lambda i: posterior.gain[i])
         if posterior.gain[top] < _WORTH_A_LOOK:
@@ -170,6 +192,11 @@ def _closer_forms(
         number = max(here.columns[i].form for i in members)
         constants = {p.name: p for p in term.effect.parameters if p.neutral is None}
         centre = {name: best.values[name] for name in constants}
+        if is_lag(term.effect):
+            size = _size_of(term, best)
+            sizes = FULL_SIZES if abs(size) < 1.0 else (size / finer[1], size * finer[1])
+            out += [CandidateForm(term, number + k, centre, x) for k, x in enumerate(sizes, 1)]
+            continue
         for name, p in constants.items():
             if p.whole or name in REFERENCES:
                 continue
@@ -179,6 +206,12 @@ def _closer_forms(
                     number += 1
                     out.append(CandidateForm(term, number, {**centre, name: value}))
     return out
+
+
+def _size_of(term: Term, column: CandidateColumn) -> float:
+    """Return the strength at which a column was taken [typical strength]."""
+    p = term.effect.parameter(column.strength)
+    return (column.values[p.name] - column.neutral) / (typical(term.effect, p) - column.neutral)
 
 
 def _like_neighbours(
@@ -211,11 +244,26 @@ def _worth_a_replay(
         forms = posterior.forms[:, t]
         for form in np.unique(forms[forms >= 0]):
             at = forms == form
-            if np.mean(at) < _WORTH_A_REPLAY:
-                continue
+            if np.mean(at) < _WORTH_A_REPLAY or _is_whole(here, label, int(form)):
+                continue  # its size was replayed
             values = _values_at(here, posterior, of[label], int(form), at)
             out[label, int(form)] = values, float(np.mean(posterior.sizes[at, t]))
     return out
+
+
+def _leave_one_chord(
+    here: Linearisation, posterior: Posterior, starts: Mapping[str, Mapping[str, float]]
+) -> dict[str, Mapping[str, float]]:
+    """Return what is likely, of what is told by whole fits the one that shows most: such changes do not add up."""
+    seen = dict(zip(posterior.labels, posterior.seen.mean(axis=0), strict=True))
+    whole = [label for label in starts if any(c.label == label and c.form and not c.strength for c in here.beside)]
+    gone = set(sorted(whole, key=lambda label: seen[label])[:-1])
+    return {label: values for label, values in starts.items() if label not in gone}
+
+
+def _is_whole(here: Linearisation, label: str, form: int) -> bool:
+    """Return whether a form's column is that of a whole fit."""
+    return any(c.label == label and c.form == form and not c.strength for c in here.beside)
 
 
 def _values_at(
@@ -230,6 +278,8 @@ def _values_at(
         share = float(posterior.strengths[at, members[0]].mean()) * first.unit
         ends = {p.name: float(p.neutral or 0.0) for p in strengths(effect)}
         return values | {name: end + share * (values[name] - end) for name, end in ends.items()}
+    if not first.strength:
+        return values
     values |= {p.name: float(p.neutral or 0.0) for p in strengths(effect)}
     for i in members:
         c = here.columns[i]
@@ -248,12 +298,22 @@ def _linearised_again(
     present = {t.label for t in found.terms}
     beside = [t for t in terms if t.label not in present and not any(at_odds(t, p) for p in found.terms)]
     were = {c.label for c in before.beside}
-    anew = [t for t in beside if chance.get(t.label, 0.0) > _WORTH_A_REPLAY or t.label not in were]
+    fit = make_fit(base, found, with_slopes=False)
+    told = {t.label for t in beside if not t.effect.replaces and is_told_by_whole_fit(fit, t)}
+    anew = [
+        t
+        for t in beside
+        if t.label in told
+        or not t.effect.replaces
+        and (chance.get(t.label, 0.0) > _WORTH_A_REPLAY or t.label not in were)
+    ]
     stays = {t.label for t in beside} - {t.label for t in anew}
     noise = (before.rows.sigma / rows.sigma).astype(np.float32)
     kept = [replace(c, column=c.column * noise) for c in before.columns if c.label in stays]
-    raw = compute_raw_columns(make_fit(base, found, with_slopes=False), list_forms(anew), rows)
-    return linearise(base, found, rows, [*kept, *_in_units(raw, units, rows)], limits)
+    whole = fit_whole(fit, [t for t in beside if t.label in told])
+    raw = [*compute_raw_columns(fit, list_forms(fit, anew), rows), *compute_columns_of_fits(fit, whole, rows)]
+    every = {**units, **compute_units_of_fits(fit, whole, limits)}
+    return linearise(base, found, rows, [*kept, *_in_units(raw, every, rows)], limits)
 
 
 def _in_units(
@@ -264,12 +324,11 @@ def _in_units(
     out: list[CandidateColumn] = []
     for c in sorted(raw, key=lambda c: c.form):
         key = (c.label, c.strength)
-        direct = _direct(c.column, rows) / abs(c.unit)
-        first.setdefault(key, direct)
-        share = units.get(key, 0.0)
-        if not c.gauge and first[key] > 0.0:
-            share *= direct / first[key]
-        if share > 0.0:
+        # a gauge's fault is held against the channel that it changes, by as much as the step
+        change = abs(c.unit) if c.gauge else _direct(c.column, rows)
+        first.setdefault(key, change)
+        share = units.get(key, 0.0) * (change / first[key] if first[key] > 0.0 else 1.0)
+        if share > (0.0 if c.strength else _NOTHING):
             out.append(replace(c, unit=c.unit / share, column=c.column / np.float32(share)))
     return out
 
@@ -288,7 +347,7 @@ def list_likely(
     of = {t.label: t for t in terms}
     chance = np.mean((posterior.sizes > _LIMITS) & (posterior.seen > _FLOORS), axis=0)
     out: dict[str, dict[str, float]] = {}
-    for t in np.argsort(-chance)[:_MOST]:
+    for t in np.argsort(-chance)[:MOST_EFFECTS]:
         if chance[t] < least or chance[t] == 0.0:
             break
         forms = posterior.forms[:, t]

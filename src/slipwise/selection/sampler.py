@@ -23,7 +23,7 @@ def _inverse(A, act, d, n):
 
 
 @kept()
-def sample_places(A, b, columns, length, owner, odds, widths, odds_of, one_sided, start, sweeps, seed):
+def sample_places(A, b, columns, length, owner, excludes, odds, widths, odds_of, one_sided, start, sweeps, seed):
     """Sample which candidate takes which place, all sizes integrated out; see the module's docstring.
 
     Args:
@@ -32,6 +32,7 @@ def sample_places(A, b, columns, length, owner, odds, widths, odds_of, one_sided
         columns: (F, w) columns of each form.
         length: (F,) how many of them count.
         owner: (F,) term of each form.
+        excludes: (T, T) whether two terms cannot be together; one never is with itself.
         odds: (F,) logarithm of the prior of the form against none.
         widths: (Z,) standard deviations of what is large.
         odds_of: (Z,) logarithm of the prior of each width.
@@ -78,7 +79,7 @@ def sample_places(A, b, columns, length, owner, odds, widths, odds_of, one_sided
             for c in range(F):
                 here = False
                 for other in range(places):
-                    if other != place and taken[other] >= 0 and owner[taken[other]] == owner[c]:
+                    if other != place and taken[other] >= 0 and excludes[owner[taken[other]], owner[c]]:
                         here = True
                 if here:
                     continue

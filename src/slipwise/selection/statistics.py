@@ -10,6 +10,7 @@ from slipwise.arrays import Array
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import CandidateColumn
 
+#: Rows whose products are taken at once: memory.
 _AT_ONCE = 20_000
 
 
@@ -77,3 +78,19 @@ def scale_columns(statistics: Statistics, factors: Array) -> Statistics:
     """Return the products with every candidate's column multiplied by a factor (K,)."""
     by = np.concatenate([np.ones(statistics.base), factors])
     return replace(statistics, products=statistics.products * np.outer(by, by), pulls=statistics.pulls * by)
+
+
+def compute_left_by_base(statistics: Statistics) -> Array:
+    """Return what a fit of the base numbers leaves of the products of columns, (r, K, K), a judged sample each."""
+    base = statistics.base
+    rig = np.flatnonzero(statistics.of_base)
+    whole = statistics.products.sum(axis=0)
+    own = whole[np.ix_(rig, rig)]
+    own = own + np.diag(1e-9 * np.diag(own) + 1e-9)
+    q = np.linalg.solve(own, whole[rig, base:])
+    out = []
+    for product, samples in zip(statistics.products, statistics.samples, strict=True):
+        cross = product[base:][:, rig] @ q
+        left = product[base:, base:] - cross - cross.T + q.T @ product[np.ix_(rig, rig)] @ q
+        out.append(left / max(samples, 1.0))
+    return np.array(out)

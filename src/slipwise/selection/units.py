@@ -10,7 +10,15 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from slipwise.campaign.materiality import Materiality
-from slipwise.diagnosis.importance import (
+from slipwise.errors import SlipwiseError
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.jobs.parallel import on_every_core
+from slipwise.model import Model
+from slipwise.relations.measurement import apply_gauge_faults
+from slipwise.relations.parameters import Term
+from slipwise.selection.hypothesis import Hypothesis
+from slipwise.selection.hypothesis_fit import make_fit
+from slipwise.selection.importance import (
     Answer,
     build_answering_model,
     choose_shown,
@@ -18,31 +26,27 @@ from slipwise.diagnosis.importance import (
     compute_share_of_channel,
     is_replayable,
 )
-from slipwise.diagnosis.initial_grid import shapes, strengths
-from slipwise.diagnosis.sensitivities import small
-from slipwise.errors import SlipwiseError
-from slipwise.estimation.base_fit import BaseFit
-from slipwise.jobs.parallel import on_every_core
-from slipwise.model import Model
-from slipwise.relations.measurement import apply_gauge_faults
-from slipwise.relations.parameters import Term
+from slipwise.selection.initial_grid import shapes, strengths
+from slipwise.selection.sensitivities import small
 
 
 def compute_units(
-    base: BaseFit, terms: Sequence[Term], limits: Materiality, most: Mapping[str, int]
+    base: BaseFit, terms: Sequence[Term], whole: Sequence[Hypothesis], limits: Materiality, most: Mapping[str, int]
 ) -> dict[tuple[str, str], float]:
     """Return (label, strength) -> share of the limit that the small strength of its column changes [1].
 
     Args:
         base: the fit from which the candidates depart.
         terms: candidates.
+        whole: fits of `fit_whole`: all of a candidate together has the strength "".
         limits: what matters.
         most: label -> place of a run in which the candidate does more than in the last one, if any.
     """
     moved = [(term, p) for term in terms for p in strengths(term.effect)]
     sizes = [(term, small(term.effect, shapes(term.effect)[0], p)) for term, p in moved]
     shares = compute_shares_of_sizes(base, sizes, limits, most)
-    return {(term.label, p.name): share for (term, p), share in zip(moved, shares, strict=True)}
+    found = {(term.label, p.name): share for (term, p), share in zip(moved, shares, strict=True)}
+    return found | compute_units_of_fits(base, whole, limits)
 
 
 def compute_shares_of_sizes(
@@ -70,12 +74,15 @@ def compute_shares_of_sizes(
     return list(on_every_core(share, len(asked)))
 
 
-def compute_sizes_in_place(here: BaseFit, terms: Sequence[Term], limits: Materiality) -> dict[str, float]:
+def compute_sizes_in_place(
+    here: BaseFit, terms: Sequence[Term], laws: Mapping[str, BaseFit], limits: Materiality
+) -> dict[str, float]:
     """Return the label of each term of a model -> what leaving it out changes, as a share of what matters [1].
 
     Args:
         here: a fit with the terms.
         terms: of the model.
+        laws: label of a term that takes another's place -> the fit with that other one.
         limits: what matters.
     """
     values, places = here.solution.values, list(dict.fromkeys([choose_shown(here), here.objective.fitted[0]]))
@@ -84,6 +91,8 @@ def compute_sizes_in_place(here: BaseFit, terms: Sequence[Term], limits: Materia
 
     def size(k: int) -> float:
         term = terms[k]
+        if term.label in laws:
+            return _largest_share(here, build_answering_model(laws[term.label]), bare, places, limits)
         if term.effect.port == "gauge":
             own = {n: values[f"{term.label}.{n}"] for n in term.effect.parameter_names}
             return _share_of_gauge(here, term, own, limits)
@@ -92,8 +101,39 @@ def compute_sizes_in_place(here: BaseFit, terms: Sequence[Term], limits: Materia
     return {t.label: x for t, x in zip(terms, on_every_core(size, len(terms)), strict=True)}
 
 
+def compute_units_of_fits(
+    here: BaseFit, whole: Sequence[Hypothesis], limits: Materiality
+) -> dict[tuple[str, str], float]:
+    """Return (label, "") -> share of the limit that a candidate changes as it was fitted [1].
+
+    A law that takes another's place is held against the fit with that other one, what else is added against nothing.
+
+    Args:
+        here: the fit without the candidates.
+        whole: fits of `fit_whole`.
+        limits: what matters.
+    """
+    if not whole:
+        return {}
+    place = choose_shown(here)
+    without = {place: _answer(build_answering_model(here), here, place)}
+
+    def share(k: int) -> float:
+        [term], fit = whole[k].terms, make_fit(here, whole[k], with_slopes=False)
+        if term.effect.port == "gauge":
+            return _share_of_gauge(fit, term, whole[k].values_of(term), limits)
+        model = build_answering_model(fit)
+        if term.effect.replaces:
+            return _largest_share(here, model, without, [place], limits)
+        bare = model.without(*(u.label for u in term.uses(fit.solution.values)))
+        return _largest_share(fit, bare, {place: _answer(model, fit, place)}, [place], limits)
+
+    shares = on_every_core(share, len(whole))
+    return {(h.terms[0].label, ""): x for h, x in zip(whole, shares, strict=True)}
+
+
 def _answer(model: Model, here: BaseFit, place: int) -> Answer:
-    return compute_answer(model, here, place, replayed=is_replayable(here.objective, place))
+    return compute_answer(model, here, place, replayed=is_replayable(here.objective, place), rough=True)
 
 
 def _having(model: Model, term: Term, values: Mapping[str, float]) -> Model:
@@ -116,15 +156,14 @@ def _largest_share(
             there = _answer(model, here, place)
         except (SlipwiseError, FloatingPointError):
             return 0.0
-        record, without = here.objective.run(place).record, bare[place]
-        shares += [
-            compute_share_of_channel(there.channels[c] - without.channels[c], record[c]) / limits.channel
-            for c in there.channels
-            if c in record and c in without.channels
-        ]
+        run, without = here.objective.run(place), bare[place]
+        for c in (c for c in there.channels if c in run.record and c in without.channels):
+            change = there.channels[c] - without.channels[c]
+            shares.append(compute_share_of_channel(change, run.record[c]) / limits.channel)
         if number == 0:
-            sizes = {r: size for r, size in without.responses.items() if size > 0.0}
-            shares += [abs(there.responses[r] / size - 1.0) / limits.response for r, size in sizes.items()]
+            pairs = [(there.responses[r], size) for r, size in without.responses.items() if size > 0.0]
+            # of the larger of the two: a spring loses next to no energy, and any change would be many times that
+            shares += [abs(x - size) / max(x, size) / limits.response for x, size in pairs]
     best = max(shares, default=0.0)
     return best if np.isfinite(best) else 0.0
 

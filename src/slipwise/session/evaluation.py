@@ -112,7 +112,7 @@ class Evaluator:
         return BaseFit(self.prepared.campaign, self.model_of(state), objective, free, solution)
 
     def with_slopes(self, state: SessionState) -> BaseFit:
-        """Return a state that was fitted as a fit with its slopes, for screening."""
+        """Return a state that was fitted as a fit with its slopes, for what is held against it."""
         fit = self.as_fit(state)
         return replace(fit, solution=solve(fit.objective, dict(state.values), list(fit.free), most=1))
 

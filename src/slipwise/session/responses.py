@@ -8,9 +8,9 @@ import numpy as np
 
 from slipwise.comparison.measured_replay import choose_simulation_step, get_measured_motion
 from slipwise.comparison.system_level import build_replayed_model, compare_system_level, pool_system_errors
-from slipwise.diagnosis.importance import compute_memory_before
 from slipwise.errors import InputError, SettingError
 from slipwise.record import Record
+from slipwise.selection.importance import compute_memory_before
 from slipwise.session.evaluation import Evaluator
 from slipwise.session.state import SessionState
 from slipwise.simulation.replay import replay

@@ -6,11 +6,11 @@ from typing import Any
 
 from slipwise.channels import channel
 from slipwise.comparison.component_level import NAMES
-from slipwise.diagnosis.candidates import list_candidates
 from slipwise.effects import catalogue
 from slipwise.noise.level import AT_FLOOR
 from slipwise.preparation.gauge_groups import find_places_of_gauges
 from slipwise.relations.parameters import Free
+from slipwise.selection.candidates import list_candidates
 from slipwise.session.session import Session
 from slipwise.session.state import SessionState
 from slipwise.units import parse_unit

@@ -11,12 +11,12 @@ from slipwise.comparison.measured_replay import choose_simulation_step
 from slipwise.design import next_test as module
 from slipwise.design.motions import LIBRARY, Limits
 from slipwise.design.next_test import next_test, rivals
-from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.errors import SettingError, SimulationError, SlipwiseError
 from slipwise.motion import displacement_peak, parse_motion, velocity_peak
 from slipwise.rig import load_specimen
+from slipwise.selection.hypothesis import Hypothesis
 
 SMALL = Limits(stroke=0.02, speed=0.2, acceleration=2.0)
 

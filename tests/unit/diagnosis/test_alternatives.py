@@ -4,9 +4,9 @@ import pytest
 
 from hypotheses import base, left_by, searched
 from slipwise.diagnosis.alternatives import list_discriminating_tests, list_explanations
-from slipwise.diagnosis.search_state import Search
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.effects import catalogue
+from slipwise.selection.search_state import Search
 
 
 def _verdict(*effects: str, kind: str = "ambiguous", rivals: tuple[tuple[str, ...], ...] = ()) -> Verdict:

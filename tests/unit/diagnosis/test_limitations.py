@@ -8,12 +8,8 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.campaign import Campaign, Logger, Run
-from slipwise.diagnosis.candidates import list_candidates
-from slipwise.diagnosis.hypothesis import make_base_hypothesis
 from slipwise.diagnosis.identifiability import list_unidentified, separate_each
 from slipwise.diagnosis.limitations import list_limitations
-from slipwise.diagnosis.screening import Screened
-from slipwise.diagnosis.search_state import Search
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.preparation.prepare import prepare
@@ -21,6 +17,10 @@ from slipwise.preparation.prepared import fit_prepared
 from slipwise.record import Record
 from slipwise.relations.parameters import Term
 from slipwise.rig import load_specimen
+from slipwise.selection.candidates import list_candidates
+from slipwise.selection.explained_alone import ExplainedAlone
+from slipwise.selection.hypothesis import make_base_hypothesis
+from slipwise.selection.search_state import Search
 
 FADES_AND_LASTS = [Term(catalogue()[name]) for name in ("heating", "run_in")]
 RESTS = "heating"
@@ -57,10 +57,9 @@ def slider(swing: float, speed: float = 0.1, noise: float = 5.0, *, pressure: bo
 
 
 def reasons(base: BaseFit, terms: list[Term] = FADES_AND_LASTS, *, screened: bool = True) -> dict[str, str]:
-    """Say what is cannot_tell after a search that has seen something in every term, or in none."""
-    nothing = np.zeros(0)
-    found = [Screened(t, {}, 0.0, 0.0, nothing, 0.0) for t in terms] if screened else []
-    return dict(list_limitations(Search(base, {}, terms, (), (make_base_hypothesis(base),), screened=found), base))
+    """Say what is cannot_tell after a selection that has seen something in every term, or in none."""
+    found = [ExplainedAlone(t, {}, 0.0, 0.0, np.nan, "") for t in terms] if screened else []
+    return dict(list_limitations(Search(base, {}, terms, (), (make_base_hypothesis(base),), found), base))
 
 
 def test_cells_of_pads_of_any_name_are_told_as_one_card() -> None:
@@ -81,7 +80,7 @@ def test_what_a_dead_gauge_hides_is_told_with_the_effects_that_no_other_shows(wh
     ready = prepare(replace(whole, runs=runs).with_records(dead, ""))
     fit = fit_prepared(ready)
     hidden = [Term(catalogue()["buffer_hardening"])]
-    state = Search(fit, {}, hidden, [], (make_base_hypothesis(fit),), screened=[])
+    state = Search(fit, {}, hidden, [], (make_base_hypothesis(fit),))
     told = dict(list_limitations(state, fit, ready.faults))
     assert told["balances"] == (
         "pad_D_Fx shows nothing, and without it no fitted run shows the balance of girder, pitch"

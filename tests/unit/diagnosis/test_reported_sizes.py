@@ -7,13 +7,13 @@ import pytest
 
 from bench import build_campaign
 from measured import as_campaign, fit_base
-from slipwise.diagnosis.hypothesis import Hypothesis, polish, refit
-from slipwise.diagnosis.hypothesis_fit import make_fit
 from slipwise.diagnosis.reported_sizes import list_named_sizes
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import compute_intervals
 from slipwise.relations.parameters import Term
+from slipwise.selection.hypothesis import Hypothesis, polish, refit
+from slipwise.selection.hypothesis_fit import make_fit
 
 
 @pytest.fixture(scope="module")

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from hypotheses import base, left_by
-from slipwise.diagnosis.hypothesis import Hypothesis
 from slipwise.diagnosis.unknown_surface import above_noise, leftover, structured
 from slipwise.record import Record
+from slipwise.selection.hypothesis import Hypothesis
 
 
 def with_left(found: Hypothesis, relation: str, left: list[np.ndarray]) -> Hypothesis:
@@ -60,7 +60,7 @@ def slowed(found: Hypothesis, factor: float) -> Hypothesis:
 
 def test_what_is_left_above_the_noise_does_not_change_with_the_unit_of_time() -> None:
     found = left_by("heating", of=base(pads=4.0), pads=4.0)
-    assert above_noise(slowed(found, 20.0)) == pytest.approx(above_noise(found))
+    assert above_noise(slowed(found, 20.0), {}) == pytest.approx(above_noise(found, {}))
 
 
 def test_one_early_reversal_in_each_run_is_no_structure() -> None:

@@ -10,13 +10,13 @@ from bench.campaign import Campaign as Made
 from bench.campaign import with_faults
 from bench.faults import Fault
 from measured import as_campaign, fit_base
-from slipwise.diagnosis.hypothesis import polish, refit, refit_for_report
 from slipwise.effects import catalogue
 from slipwise.evidence.residual_summary import summarise_residuals
 from slipwise.model import base_model
 from slipwise.relations.noise import compute_heave_level
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import fit_runs
+from slipwise.selection.hypothesis import polish, refit, refit_for_report
 
 CUTOFF = 12.0
 

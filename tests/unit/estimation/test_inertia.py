@@ -8,7 +8,6 @@ import pytest
 from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.campaign import Logger
-from slipwise.diagnosis.hypothesis import polish, refit, refit_for_report
 from slipwise.effects import catalogue
 from slipwise.evidence.residual_summary import summarise_residuals
 from slipwise.model import base_model, use
@@ -16,6 +15,7 @@ from slipwise.relations.girder import pass_through_pitch
 from slipwise.relations.noise import compute_driven_noise_in_pitch
 from slipwise.relations.parameters import PITCH_INERTIA, YAW_INERTIA, Term
 from slipwise.relations.run_data import fit_runs
+from slipwise.selection.hypothesis import polish, refit, refit_for_report
 from slipwise.signals.filters import LowPass
 from slipwise.signals.oscillator import oscillator
 

@@ -10,8 +10,6 @@ from bench import build_campaign
 from measured import as_campaign
 from slipwise.campaign import Campaign, Run
 from slipwise.comparison.compare import compare
-from slipwise.diagnosis import forward_selection
-from slipwise.diagnosis.candidates import list_candidates
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.ladder import ladder
 from slipwise.effects import Effect
@@ -20,6 +18,8 @@ from slipwise.preparation.prepare import prepare
 from slipwise.record import Record
 from slipwise.relations.parameters import Term
 from slipwise.rig import load_specimen
+from slipwise.selection import select
+from slipwise.selection.candidates import list_candidates
 from slipwise.session.session import Session
 
 PADS = "ABCD"
@@ -67,7 +67,7 @@ def heating_alone(monkeypatch: pytest.MonkeyPatch) -> None:
         terms, cannot = list_candidates(base, own)
         return [term for term in terms if term.effect.name == "heating"], cannot
 
-    monkeypatch.setattr(forward_selection, "list_candidates", listed)
+    monkeypatch.setattr(select, "list_candidates", listed)
 
 
 @pytest.mark.slow

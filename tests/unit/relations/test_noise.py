@@ -22,10 +22,20 @@ def test_a_reversal_is_unsure_for_half_a_period_of_the_logger_before_and_after(r
     assert run.filtered is not None
     turn, reach = len(run.time) // 2, int(np.ceil(0.5 / (run.filtered.frequency * run.dt)))
     plain = np.where(np.arange(len(run.time)) < turn, -1000.0, 1000.0)[:, None]
-    unsure = compute_reversal_noise(run, plain, plain)[:, 0]
+    unsure = compute_reversal_noise(run, plain, plain, plain)[:, 0]
     # the slope of a step is seen on the samples before and after it
     assert np.flatnonzero(unsure).tolist() == list(range(turn - 1 - reach, turn + reach + 1))
     assert unsure.max() == pytest.approx(1e-4 * 1000.0 / run.dt)
+
+
+def test_a_reversal_is_as_unsure_whichever_way_x_points(run: FitRun) -> None:
+    plain = 1000.0 * np.sign(np.sin(np.arange(len(run.time)) / 40.0))[:, None]
+    slower, faster = np.roll(plain, 2, axis=0), np.roll(plain, -7, axis=0)
+    unsure = compute_reversal_noise(run, plain, slower, faster)
+    mirrored = compute_reversal_noise(run, -plain, -faster, -slower)
+    assert unsure == pytest.approx(mirrored)
+    turns = np.flatnonzero(np.diff(plain[:, 0]))
+    assert (unsure[turns - 6] > 0.0).all() and (unsure[turns + 2] > 0.0).all()
 
 
 def test_a_fault_lets_through_as_much_of_an_error_as_it_changes_a_pulse(run: FitRun) -> None:

@@ -1,5 +1,7 @@
 """The posterior on made columns, whose causes are known."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -132,3 +134,22 @@ def test_scaled_columns_give_what_columns_taken_so_would() -> None:
     other = compute_statistics(rows_of(), left, left, slopes, of_base, scaled)
     assert np.allclose(one.products, other.products, rtol=1e-5)
     assert np.allclose(one.pulls, other.pulls, rtol=1e-5, atol=1e-3)
+
+
+def test_what_excludes_each_other_is_never_in_one_model() -> None:
+    x = waves(3)
+    columns = [column(f"effect{i}", x[:, i]) for i in range(3)]
+    left, of_base, slopes = noise() - 4.0 * x[:, 0] - 4.0 * x[:, 1], np.ones(1, bool), waves(1, 5)
+    statistics = compute_statistics(rows_of(), left, left, slopes, of_base, columns)
+    free = compute_posterior(statistics, columns, {})
+    apart = compute_posterior(statistics, columns, {}, {("effect0", "effect1"), ("effect1", "effect0")})
+    together = [np.mean((p.sizes[:, 0] > 0.0) & (p.sizes[:, 1] > 0.0)) for p in (free, apart)]
+    assert together == [1.0, 0.0]
+    assert max(chance(apart, "effect0"), chance(apart, "effect1")) > 0.9
+
+
+def test_of_two_that_explain_alike_the_one_that_was_fitted_with_fewer_numbers_is_likelier() -> None:
+    x = waves(2)
+    few, many = column("few", x[:, 0]), replace(column("many", x[:, 0]), numbers=3)
+    found = posterior_of(noise() - 4.0 * x[:, 0], waves(1, 5), [few, many])
+    assert chance(found, "few") > 0.9 > 0.1 > chance(found, "many")

@@ -6,14 +6,13 @@ import pytest
 
 from bench import make_bearing
 from slipwise.campaign.materiality import Materiality
-from slipwise.diagnosis.candidates import list_candidates
 from slipwise.diagnosis.diagnose import diagnose
-from slipwise.diagnosis.importance import choose_shown
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import fit_prepared
 from slipwise.selection.averaged_rows import make_averaged_rows
+from slipwise.selection.candidates import list_candidates
 from slipwise.selection.columns import compute_raw_columns, list_forms
-from slipwise.selection.select import select_by_posterior
+from slipwise.selection.importance import choose_shown
 from slipwise.selection.units import compute_units
 
 
@@ -24,7 +23,7 @@ def test_a_spring_that_meets_a_wall_is_named_and_nothing_where_nothing_is(
     tmp_path: Path, kind: str, names: set[str]
 ) -> None:
     make_bearing(tmp_path / kind, kind, 54301 if kind == "spring" else 54303)
-    found = diagnose(tmp_path / kind, select=select_by_posterior)
+    found = diagnose(tmp_path / kind)
     assert set(found.verdict.effects) == names
     assert found.final_error < 1.2
 
@@ -35,14 +34,14 @@ def test_units_are_shares_of_the_limit_and_columns_belong_to_them(tmp_path: Path
     base = fit_prepared(prepared)
     terms = [t for t in list_candidates(base)[0] if not t.effect.replaces][:6]
     limits = prepared.recorded.materiality
-    usual = compute_units(base, terms, limits, {})
+    usual = compute_units(base, terms, [], limits, {})
     half = Materiality(limits.channel / 2.0, limits.response / 2.0, limits.gauge / 2.0)
-    strict = compute_units(base, terms, half, {})
+    strict = compute_units(base, terms, [], half, {})
     assert usual.keys() == strict.keys()
     for key, share in usual.items():
         assert strict[key] == pytest.approx(2.0 * share, rel=1e-6, abs=1e-12)
     rows = make_averaged_rows(base.objective)
-    columns = compute_raw_columns(base, list_forms(terms), rows)
+    columns = compute_raw_columns(base, list_forms(base, terms), rows)
     assert {c.label for c in columns} <= {t.label for t in terms}
     assert all(len(c.column) == len(rows.relation) for c in columns)
     assert choose_shown(base) in range(len(base.objective.runs))

@@ -32,6 +32,12 @@ def _comparison(found: Any) -> Figure:
     return errors_figure(found)
 
 
+def _bearing(found: Any) -> Figure:
+    from slipwise.view.figures.bearing_figures import loops_figure
+
+    return loops_figure(found)
+
+
 def _diagnosis(found: Any) -> Figure:
     from slipwise.view.figures.diagnosis_figures import balances_figure
 
@@ -125,6 +131,7 @@ def _next_test(found: Any) -> Figure:
 #: Kind of result -> what draws it. By name, so that a picture of a record loads no diagnosis.
 _PICTURES: dict[str, Callable[[Any], Figure]] = {
     "AuditReport": _audit,
+    "BearingReport": _bearing,
     "Campaign": _campaign,
     "Checks": lambda checks: _audit(checks.report),
     "Comparison": _comparison,

@@ -202,10 +202,10 @@ def _limits(found: Diagnosis) -> Section:
     pieces.append(details("Smallest size of each effect that this campaign would have shown", [table(least)]))
     seen = [
         {"candidate": s.term.label, "explains alone": f"{s.gain:.3g}", "hidden by the base fit": f"{s.absorbed:.0%}"}
-        for s in found.search.screened
+        for s in found.search.alone
     ]
     words = paragraph("Without a refit: drop of the squared residual of the fitted runs, in variances of the noise.")
-    pieces.append(details(f"All {len(seen)} candidates as they were screened", [words, table(seen)]))
+    pieces.append(details(f"What each of {len(seen)} candidates could explain alone", [words, table(seen)]))
     return Section("What this campaign could not tell", pieces)
 
 

@@ -1,7 +1,7 @@
 """What leaving each effect out changes, as rows of a table: slip, energy, load, and the channel that changes most."""
 
-from slipwise.diagnosis.importance import Change, Importance
 from slipwise.diagnosis.result import Diagnosis
+from slipwise.selection.importance import Change, Importance
 from slipwise.view.words.diagnosis_words import percent
 
 _CALLED = {"peak_slip": "peak slip", "energy": "energy", "largest_load": "largest load"}

@@ -3,8 +3,8 @@
 import pytest
 
 from hypotheses import base, decided, diagnosed, left_by, on, searched
-from slipwise.diagnosis.importance import Change
 from slipwise.diagnosis.result import Diagnosis
+from slipwise.selection.importance import Change
 from slipwise.view.words.importance_rows import changed, importance_rows, replayed_run
 
 
