@@ -5,7 +5,8 @@
     python scripts/calibrate.py out/families
     python scripts/calibrate.py out/families --check    # writes nothing
 
-Each model is a logistic regression in a few numbers (scikit-learn, ridge 1 on numbers of unit spread): whether an
+Each model is a logistic regression in a few numbers (ridge 1 on numbers of unit spread, signs
+of the weights held to what more of a number can only mean): whether an
 effect that was found is there, whether its size is what the posterior says, whether effects are of the right family
 whatever they leave, and whether all of a verdict is right, by the product of these. That last one is fitted to verdicts
 that models of other campaigns have made (in five parts, the two makers' campaigns of a seed in one), or it would be
@@ -26,8 +27,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from sklearn.linear_model import LogisticRegression
+from scipy.optimize import minimize
+from scipy.special import expit
+from sklearn.isotonic import IsotonicRegression
 
+from slipwise.arrays import Array
 from slipwise.campaign.materiality import Materiality
 from slipwise.evidence.calibration import Calibration, Logistic, compute_log_odds
 from slipwise.evidence.decision import decide, is_left
@@ -37,6 +41,9 @@ OUT = Path(__file__).parents[1] / "src" / "slipwise" / "evidence" / "calibration
 PRESENT = ("lead", "share", "stays", "gauge", "inclusion", "spread", "seen", "beside")
 MATTERS = ("spread", "gauge", "lead", "beside")
 FAMILY = ("explained", "left", "relative")
+#: Numbers of which more can only make a claim likelier, or less likely: a few campaigns must not say the opposite.
+WAYS = {name: (0.0, None) for name in ("lead", "share", "stays", "inclusion", "seen", "explained", "product")}
+WAYS |= {name: (None, 0.0) for name in ("spread", "beside", "left", "relative")}
 PARTS, FIFTHS = 5, 5
 #: Fewer cases of either kind leave a model as it was.
 LEAST = 5
@@ -88,9 +95,18 @@ def fitted(cases: Sequence[Case], names: Sequence[str], before: Logistic) -> Log
         return before
     numbers = np.array([[of[name] for name in names] for of, _ in cases])
     middle, spread = numbers.mean(axis=0), np.maximum(numbers.std(axis=0), 1e-9)
-    found = LogisticRegression(C=1.0).fit((numbers - middle) / spread, answers)
-    weights = found.coef_[0] / spread
-    constant = float(found.intercept_[0] - weights @ middle)
+    known, truth = (numbers - middle) / spread, np.where(answers, 1.0, -1.0)
+
+    def loss(x: Array) -> tuple[float, Array]:
+        margin = truth * (x[0] + known @ x[1:])
+        pull = -truth * expit(-margin)
+        slopes = np.r_[pull.sum(), known.T @ pull + x[1:]]
+        return float(np.sum(np.logaddexp(0.0, -margin)) + 0.5 * x[1:] @ x[1:]), slopes
+
+    bounds = [(None, None), *(WAYS.get(name, (None, None)) for name in names)]
+    found = minimize(loss, np.zeros(len(names) + 1), jac=True, method="L-BFGS-B", bounds=bounds).x
+    weights = found[1:] / spread
+    constant = float(found[0] - weights @ middle)
     kept = {name: round(float(weight), 3) for name, weight in zip(names, weights, strict=True)}
     return Logistic(round(constant, 3), kept)
 
@@ -134,15 +150,32 @@ def by_others(rows: Sequence[Row], before: Calibration) -> list[tuple[Row, float
     return out
 
 
+def venn_abers(chance: Array, good: Array, claim: float) -> tuple[float, float]:
+    """Give the two probabilities between which a claim is calibrated, whatever the truth of the next case.
+
+    Isotonic regressions of what came true, with one more case at the claim that did not and that did (Vovk and Petej,
+    2014, Venn-Abers predictors).
+    """
+    claims = np.append(chance, claim)
+    low, high = (
+        IsotonicRegression(out_of_bounds="clip").fit(claims, np.append(good, truth)).predict([claim])[0]
+        for truth in (0.0, 1.0)
+    )
+    return float(low), float(high)
+
+
 def report(said: Sequence[tuple[float, bool]], what: str) -> None:
-    """Print how many are right, the Brier score, and how often claims of each fifth come true."""
+    """Print how many are right, the Brier score, and how often claims of each fifth come true, with intervals."""
     chance, good = np.array([p for p, _ in said]), np.array([g for _, g in said])
     if not len(said):
         return
     print(f"{what}: {good.sum()} of {len(good)} right, Brier {np.mean((chance - good) ** 2):.3f}")
     for fifth in np.array_split(np.argsort(chance), FIFTHS):
         if len(fifth):
-            print(f"  said {chance[fifth].mean():.2f}, came true {good[fifth].mean():.2f} of {len(fifth)}")
+            line = f"  said {chance[fifth].mean():.2f}, came true {good[fifth].mean():.2f} of {len(fifth)}"
+            if len(good) >= FIFTHS**2:
+                line += ", between {:.2f} and {:.2f}".format(*venn_abers(chance, good, chance[fifth].mean()))
+            print(line)
 
 
 def main() -> None:

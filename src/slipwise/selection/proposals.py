@@ -310,7 +310,7 @@ def _linearised_again(
     stays = {t.label for t in beside} - {t.label for t in anew}
     noise = (before.rows.sigma / rows.sigma).astype(np.float32)
     kept = [replace(c, column=c.column * noise) for c in before.columns if c.label in stays]
-    whole = fit_whole(fit, [t for t in beside if t.label in told])
+    whole = fit_whole(fit, [t for t in beside if t.label in told], once=True)
     raw = [*compute_raw_columns(fit, list_forms(fit, anew), rows), *compute_columns_of_fits(fit, whole, rows)]
     every = {**units, **compute_units_of_fits(fit, whole, limits)}
     return linearise(base, found, rows, [*kept, *_in_units(raw, every, rows)], limits)

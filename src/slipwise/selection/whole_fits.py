@@ -20,7 +20,7 @@ from slipwise.jobs.parallel import on_every_core
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import FULL_SIZES, CandidateColumn, make_column
-from slipwise.selection.hypothesis import Hypothesis, refit
+from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, refit
 from slipwise.selection.initial_grid import shapes, strengths
 from slipwise.selection.sensitivities import compute_stacked_with, typical
 
@@ -35,18 +35,20 @@ def is_told_by_whole_fit(here: BaseFit, term: Term) -> bool:
     return bool(term.effect.replaces) or not here.objective.balanced or "storeys" in term.effect.needs
 
 
-def fit_whole(here: BaseFit, terms: Sequence[Term]) -> list[Hypothesis]:
+def fit_whole(here: BaseFit, terms: Sequence[Term], *, once: bool = False) -> list[Hypothesis]:
     """Add each candidate that is told by a whole fit to a fit, in turn; one that cannot be evaluated is left out.
 
     Args:
         here: a fit without the candidates.
         terms: candidates of every kind.
+        once: from one start each, where a fit is no longer as far off as that of the base may be.
     """
+    near = make_base_hypothesis(here) if once else None
     asked = [t for t in terms if is_told_by_whole_fit(here, t)]
 
     def fit(k: int) -> tuple[Solution, ResidualSummary] | None:
         try:
-            found = refit(here, [asked[k]], {asked[k].label: _choose_start(here, asked[k])})
+            found = refit(here, [asked[k]], {asked[k].label: _choose_start(here, asked[k])}, near)
         except SlipwiseError:
             return None
         return found.solution, found.summary  # functions of a term cannot be sent from one process to another
