@@ -5,13 +5,12 @@
     python scripts/calibrate.py out/families
     python scripts/calibrate.py out/families --check    # writes nothing
 
-Each model is a logistic regression in a few numbers (ridge 1 on numbers of unit spread, signs
-of the weights held to what more of a number can only mean): whether an
-effect that was found is there, whether its size is what the posterior says, whether effects are of the right family
-whatever they leave, and whether all of a verdict is right, by the product of these. That last one is fitted to verdicts
-that models of other campaigns have made (in five parts, the two makers' campaigns of a seed in one), or it would be
-told how well the others remember. Families that are held out take no part; what the models say of them is printed
-apart.
+Each model is a logistic regression in a few numbers (ridge 1 on numbers of unit spread, signs of the weights held to
+what more of a number can only mean): whether an effect that was found is there, whether its size is what the posterior
+says, whether effects are of the right family whatever they leave, and whether all of a verdict is right, by the product
+of these. That last one is fitted to verdicts that models of other campaigns have made (in five parts, the two makers'
+campaigns of a seed in one), or it would be told how well the others remember. Families that are held out take no part;
+what the models say of them is printed apart.
 
 Printed are, of verdicts by models that have not seen them: how many are right, the Brier score, and how often claims of
 each fifth come true.
@@ -174,7 +173,8 @@ def report(said: Sequence[tuple[float, bool]], what: str) -> None:
         if len(fifth):
             line = f"  said {chance[fifth].mean():.2f}, came true {good[fifth].mean():.2f} of {len(fifth)}"
             if len(good) >= FIFTHS**2:
-                line += ", between {:.2f} and {:.2f}".format(*venn_abers(chance, good, chance[fifth].mean()))
+                low, high = venn_abers(chance, good, chance[fifth].mean())
+                line += f", between {low:.2f} and {high:.2f}"
             print(line)
 
 

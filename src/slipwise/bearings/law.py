@@ -17,14 +17,12 @@ from slipwise.campaign import Campaign
 from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import COVERAGE, Intervals, compute_intervals
-from slipwise.estimation.least_squares import with_slopes
+from slipwise.estimation.least_squares import STEP, with_slopes
 from slipwise.estimation.objective import Objective, make_objective
 from slipwise.relations.run_data import fit_runs
 
 #: Draws, and the seed that makes them the same in every report.
 _DRAWS, _SEED = 400, 1
-#: Of the slopes, in each number's own scale [1].
-_STEP = 1e-3
 
 
 @dataclass(frozen=True)
@@ -59,7 +57,7 @@ def predict_forces(base: BaseFit, uncut: Campaign, invalid: InvalidSamples) -> M
     changes: list[Array] = [np.zeros((*force.shape, len(draws))) for force in here]
     for column, key in enumerate(found.keys):
         free = next(f for f in base.free if f.key == key)
-        step = _STEP * free.scale
+        step = STEP * free.scale
         step = -step if values[key] + step > free.high else step
         moved = nearby.residuals({**values, key: values[key] + step}).pad_forces
         for change, there, force in zip(changes, moved, here, strict=True):

@@ -10,6 +10,7 @@ from functools import cache
 from importlib.resources import files
 
 import numpy as np
+from scipy.special import expit
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,7 @@ class Logistic:
     def __call__(self, evidence: Mapping[str, float]) -> float:
         """Return the probability; numbers that the model does not use are passed over."""
         odds = self.constant + sum(weight * evidence[name] for name, weight in self.weights.items())
-        return float(np.clip(compute_probability(odds), 0.01, 0.99))
+        return float(np.clip(expit(odds), 0.01, 0.99))
 
 
 @dataclass(frozen=True)
@@ -65,11 +66,6 @@ def compute_log_odds(probability: float) -> float:
     """Return the log-odds of a probability, finite also at 0 and 1."""
     kept = float(np.clip(probability, 1e-6, 1.0 - 1e-6))
     return float(np.log(kept / (1.0 - kept)))
-
-
-def compute_probability(odds: float) -> float:
-    """Return the probability of log-odds."""
-    return float(1.0 / (1.0 + np.exp(-odds)))
 
 
 @cache

@@ -11,8 +11,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import expit
 
-from slipwise.evidence.calibration import Calibration, compute_probability
+from slipwise.evidence.calibration import Calibration
 
 #: What is more likely than this to be there and to matter is named, and so is a rival [1].
 EVEN_ODDS = 0.5
@@ -60,7 +61,7 @@ def decide(
         chances: the calibration.
     """
     sure = {name: chances.present(of) for name, of in effects.items()}
-    both = {name: chances.matters(of) * compute_probability(of["inclusion"]) for name, of in effects.items()}
+    both = {name: chances.matters(of) * float(expit(of["inclusion"])) for name, of in effects.items()}
     named = tuple(name for name in effects if both[name] >= EVEN_ODDS)
     minor = tuple(name for name in effects if sure[name] >= _LISTED and name not in named)
     left = is_left(rest, least)
