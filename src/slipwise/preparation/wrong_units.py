@@ -46,6 +46,8 @@ _OF_CARD, _ALIKE = 50.0, 1.8
 _TOGETHER, _UNLIKE = 0.9, 4.0
 #: Relations must hold that many times better with the channel put right, on their geometric mean [1].
 _BETTER = 3.0
+#: A gauge may be off by less than this by its calibration alone: no sign of another unit, such as daN for kgf [1].
+_OF_CALIBRATION = 1.3
 #: Columns that are looked for, one after the other.
 _MOST = 3
 
@@ -176,7 +178,8 @@ def _of_units(name: str, factor: float, near: float = _NEAR) -> float:
 
     Where the fit is too rough to tell units apart, a power of ten is the likelier one.
     """
-    known = [*(_ratio(name, *pair) for pair in _pairs(name)), *_powers(), *_FACTORS, *(1.0 / f for f in _FACTORS)]
+    units = [*(_ratio(name, *pair) for pair in _pairs(name)), *_powers(), *_FACTORS, *(1.0 / f for f in _FACTORS)]
+    known = [f for f in units if max(f, 1.0 / f) > _OF_CALIBRATION]
     for factors, reach in ((known, _SURE), (_powers(), near), (known, near)):
         away = np.abs(np.log(np.array(factors) / factor))
         if away.min() < reach:

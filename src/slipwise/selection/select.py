@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from slipwise.effects import Effect
-from slipwise.estimation.base_fit import BaseFit, restart_base_fit
+from slipwise.estimation.base_fit import BaseFit, restart_base_fit, reweigh_base_fit
 from slipwise.evidence.score import FLOOR, compute_score
 from slipwise.model import Model
 from slipwise.preparation.prepared import Prepared, fit_prepared
@@ -26,6 +26,8 @@ from slipwise.selection.search_state import Search, try_all, try_one
 _RIVALS = 0.1
 #: Candidates that are refitted alone where nothing is likely: what comes nearest.
 _NEAREST = 2
+#: Rounds in which a slider's noise at reversals is taken from what was found: the second knows laws of the first.
+_WEIGHED = 2
 
 
 @dataclass(frozen=True)
@@ -67,6 +69,12 @@ def select_effects(
     better = restart_base_fit(base, state.best.solution.values) if state.best.terms else None
     if better is not None:
         base, state = better, _select(prepared, better, own, tell)
+    for _ in range(0 if base.objective.balanced else _WEIGHED):
+        best = state.best
+        weighed = reweigh_base_fit(base, best.objective, best.solution.values) if best.terms else None
+        if weighed is None:
+            break
+        base, state = weighed, _select(prepared, weighed, own, tell)
     tell("done", 1.0)
     return SelectionResult(prepared, base, state)
 
