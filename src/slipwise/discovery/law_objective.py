@@ -13,7 +13,7 @@ from slipwise.arrays import Array
 from slipwise.discovery.matching import Match, constants_of, limits, place_of, product_at
 from slipwise.estimation.least_squares import Solution, get_slopes, solve
 from slipwise.estimation.objective import Objective
-from slipwise.relations.girder import pass_through_pitch
+from slipwise.signals.pitch import pass_through_pitch
 from slipwise.relations.noise import whiten_residual
 from slipwise.relations.pad_law import log_force
 from slipwise.relations.pad_stages import divide_by_noise

@@ -161,7 +161,10 @@ def scale_model(model: Model, scales: Scales, *, typical: bool) -> Model:
 def free_numbers(campaign: Campaign, model: Model, objective: Objective) -> list[Free]:
     """Return what a fit of a model may change, with bounds that this campaign's strokes and gauges set."""
     length, known = objective.scales.length, campaign.logger.known
-    free = list_base_numbers(model, balances=objective.balanced, logger_known=known, length=length)
+    free = list_base_numbers(
+        model, balances=objective.balanced, forces=objective.forces_measured, loads=objective.loads_measured,
+        logger_known=known, length=length,
+    )  # fmt: skip
     stroke = min(float(np.ptp(run.slip)) for run in objective.fitted_runs)
     most = max(_STICK_SHARE * stroke, 1e-7 * length)
     if not model.specimen.free and ZERO not in list_replaced_numbers(u.effect for u in model.uses):

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.signal import fftconvolve
 
 from slipwise.arrays import Array
-from slipwise.relations.girder import pass_through_pitch
+from slipwise.signals.pitch import pass_through_pitch
 from slipwise.relations.run_data import FitRun
 from slipwise.rig import Specimen
 from slipwise.rig.storeys import frame_modes
