@@ -143,10 +143,11 @@ def scale_model(model: Model, scales: Scales, *, typical: bool) -> Model:
     if scales == Scales():
         return model
     uses = []
+    typical = typical and model.specimen.slides  # dampers of what does not slide are in the size of this rig already
     for entry in model.uses:
         effect = scaled(catalogue().get(entry.effect.name, entry.effect), scales.of, scales.room)
         values = {n: scales.of(effect.parameter(n).unit) * v if typical else v for n, v in entry.numbers.items()}
-        uses.append(use_of(holding(effect, values), values, entry.target))
+        uses.append(replace(use_of(holding(effect, values), values, entry.target), held=entry.held))
     if not typical:
         return replace(model, uses=tuple(uses))
     rated = model.specimen

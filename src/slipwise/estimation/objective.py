@@ -128,7 +128,7 @@ class Objective:
     @property
     def inertias(self) -> tuple[str, ...]:
         """Keys of the inertias of the girder that the terms speak of."""
-        rocks = any(is_pitching_table(term) for term in self.terms)
+        rocks = self.loads_measured and any(is_pitching_table(term) for term in self.terms)
         return (YAW_INERTIA,) * self.makes_yaw + (PITCH_INERTIA,) * rocks
 
     @property

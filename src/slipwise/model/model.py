@@ -30,12 +30,14 @@ class EffectUse(Tabular):
         target: the channel it acts on, or channels ("pad_*_N", "all"), for effects that need one; the load of the pad
             on which it sits alone, for effects that may.
         own: pad -> parameter -> value [SI], where a pad has another than all pads.
+        held: parameters that no fit changes: the exponent of a dashpot that is to stay linear.
     """
 
     effect: Effect
     values: Mapping[str, float]
     target: str = ""
     own: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    held: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse unknown parameters, values out of bounds, and a target where none belongs."""
@@ -84,11 +86,11 @@ class EffectUse(Tabular):
         return {**self.values, **self.own.get(pad, {})}
 
     def unused(self, pads: Sequence[str]) -> dict[str, float]:
-        """Return the values for all pads that no fit can find: pads have their own, or only single ones any."""
+        """Return the values for all pads that no fit finds: held ones, and those in place of which each pad has its own."""
         return {
             n: v
             for n, v in self.values.items()
-            if self.effect.parameter(n).by_pad or all(n in self.own.get(pad, {}) for pad in pads)
+            if n in self.held or self.effect.parameter(n).by_pad or all(n in self.own.get(pad, {}) for pad in pads)
         }
 
     @property
@@ -235,7 +237,7 @@ class Model(Tabular):
     def setting(self, name: str, **values: float | str) -> "Model":
         """Return a model with other parameter values of one effect, as `use` takes them."""
         old = self[name]
-        new = use_of(old.effect, {**old.numbers, **_read(old.effect, values)}, old.target)
+        new = replace(use_of(old.effect, {**old.numbers, **_read(old.effect, values)}, old.target), held=old.held)
         return replace(self, uses=tuple(new if u is old else u for u in self.uses))
 
     @property
@@ -294,11 +296,7 @@ def base_model(rig: str | Path | Specimen, effects: Sequence[str | Effect | Effe
 
 def _linear_damping(specimen: Specimen) -> EffectUse:
     """Return dashpots at the buffers with a usual fraction of critical damping; no fit makes them less linear."""
-    effect = find_effect("buffer_damping")
+    damping = find_effect("buffer_damping").parameter("damping")
     critical = 2.0 * np.sqrt(sum(specimen.buffer_stiffness) * specimen.carried_mass)
-    values = effect.typical()
-    linear = tuple(p if p.name == "damping" else replace(p, low=values[p.name], high=values[p.name])
-                   for p in effect.parameters)
-    damping = effect.parameter("damping")
     each = float(np.clip(_USUAL_DAMPING * critical / len(specimen.buffers), damping.low, damping.high))
-    return use_of(replace(effect, parameters=linear), {**values, "damping": each})
+    return replace(use("buffer_damping", damping=each), held=("exponent", "relaxation"))

@@ -164,8 +164,7 @@ def list_base_numbers(
         for p in (p for p in entry.parameters if p.name not in unused):
             value = entry.numbers[p.name]
             scale = abs(value) or abs(p.typical) or 0.1 * (p.high - p.low)
-            if p.low < p.high:
-                out.append(Free(f"{entry.label}.{p.name}", value, p.low, p.high, scale, p.unit))
+            out.append(Free(f"{entry.label}.{p.name}", value, p.low, p.high, scale, p.unit))
     specimen = model.specimen
     if not model.reverses and specimen.slides:
         out.append(list_stick_numbers(length))

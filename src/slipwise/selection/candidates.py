@@ -6,7 +6,7 @@ from itertools import combinations
 
 import numpy as np
 
-from slipwise.effects import Effect, catalogue, for_pads, scaled, scaled_to_gauge
+from slipwise.effects import FRICTION_PORTS, Effect, catalogue, for_pads, scaled, scaled_to_gauge
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.objective import Objective
 from slipwise.preparation.gauge_groups import find_places_of_gauges
@@ -86,6 +86,8 @@ def _alike(one: float, other: float) -> bool:
 
 def _untestable(effect: Effect, objective: Objective) -> str:
     """Say what an effect needs first that this campaign has not; "" where it can be tested."""
+    if effect.port in FRICTION_PORTS and not objective.specimen.slides:
+        return 'the pads do not slide: the specimen says friction = "none"'
     return next((effect.without(need) for need in effect.all_needs if not HAS[need](objective)), "")
 
 
@@ -100,8 +102,11 @@ def _one_way(objective: Objective) -> bool:
 
 
 def _load_varies(objective: Objective) -> bool:
-    """Return whether the load changes within a run that is fitted, or from one of them to another."""
-    loads = [run.load for run in objective.fitted_runs]
+    """Return whether the load changes within a run that is fitted, or from one of them to another.
+
+    Where only what all pads carry together is known, rocking changes nothing: it is the sum of the loads that counts.
+    """
+    loads = [run.load if objective.forces_measured else run.load.sum(axis=1) for run in objective.fitted_runs]
     means = np.array([float(np.mean(load)) for load in loads])
     within = any(float(np.std(load)) > _STEADY_LOAD * mean for load, mean in zip(loads, means, strict=True))
     return within or float(np.ptp(means)) > _STEADY_LOAD * float(means.max())
@@ -116,7 +121,8 @@ HAS: dict[str, Callable[[Objective], bool]] = {
     "across": lambda objective: "across" in objective.relations,
     "prescribed slip": lambda objective: not objective.specimen.free,
     "storeys": lambda objective: "storeys" in objective.relations,
-    "several pads": lambda objective: len(objective.pads) > 1,
+    "loads": lambda objective: objective.loads_measured,
+    "several pads": lambda objective: len(objective.pads) > 1 and objective.forces_measured,
     "both directions": lambda objective: not _one_way(objective),
     "changing load": _load_varies,
 }
