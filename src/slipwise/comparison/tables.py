@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -129,6 +130,7 @@ _MAKERS = {
     "parity": _parity,
     "floor": _floor,
     "noise": _noise,
+    "layer": lambda found: [asdict(one) for one in found.layer],
     "predicted_friction": _predicted_friction,
 }
 
@@ -147,6 +149,8 @@ def as_json(found: ComparisonData) -> dict[str, Any]:
     parameters: [{parameter, value, low, high, rated, unit, bound, limit}], 95 % intervals
     correlations: [{parameter, other, correlation}], the strongest first
     surface: {pressure, speed, friction, deviation}, mu(P, V), or null
+    layer: [{run, role, peak_slip, peak_force, energy, stiffness, period, damping, linear_left, model_left}], where no
+        bearing's force was measured
     floor: [{relation, floor, near_reversals, unit, repeated_runs}]
     predicted_friction: [{run, role, measured, value, low, high, inside}], mean friction of one pad while sliding
     noise: {channels: [{channel, unit, level, basis, correlation_time}], notes: in words}
@@ -188,7 +192,7 @@ def as_json(found: ComparisonData) -> dict[str, Any]:
         "surface": surface,
         **{
             name: rows_of(found, name)
-            for name in ("places", "parameters", "correlations", "floor", "parity", "cells", "predicted_friction")
+            for name in ("places", "parameters", "correlations", "layer", "floor", "parity", "cells", "predicted_friction")
         },
         "noise": {"channels": rows_of(found, "noise"), "notes": list(_noise_notes(found))},
         "runs": {"components": rows_of(found, "components"), "system": rows_of(found, "system")},

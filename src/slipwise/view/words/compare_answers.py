@@ -55,11 +55,13 @@ def roles(found: Comparison) -> str:
 
 
 def _floor_words(found: Comparison) -> str:
-    row = next(r for r in found.rows("floor") if r["relation"] == "pads")
-    words = size(row["floor"], "N")
+    rows = {row["relation"]: row for row in found.rows("floor")}
+    row = rows.get("pads") or next(iter(rows.values()))
+    words = size(row["floor"], row["unit"])
     if row["near_reversals"] is not None:
-        words += f" and {size(row['near_reversals'], 'N')} near reversals"
-    words = f"On the friction of one pad {words}, from the noise of gauges and velocity"
+        words += f" and {size(row['near_reversals'], row['unit'])} near reversals"
+    of = "On the friction of one pad" if row["relation"] == "pads" else f"On the {NAMES[row['relation']][0]}"
+    words = f"{of} {words}, from the noise of gauges and velocity"
     again = row["repeated_runs"]
     if again is None:
         return words + "; no repeated run confirms it."
@@ -83,6 +85,9 @@ def _error_words(found: Comparison) -> str:
     share = [e.share for e in found.components if e.relation == "pads" and (e.role == "holdout") == held]
     if share:
         words += f". Friction of the pads errs by {max(share):.2%} of its rms"
+    layer = [one.model_left for one in found.layer if (one.role == "holdout") == held]
+    if layer:
+        words += f". The force of all bearings errs by {max(layer):.2%} of its rms"
     return words + "."
 
 
