@@ -36,7 +36,10 @@ class FrictionSurface:
 
 
 def compute_friction_surface(base: BaseFit, found: Intervals) -> FrictionSurface | None:
-    """Return the surface over the pressures and speeds that the campaign has seen; None where no load is known, or nothing slides."""
+    """Return the surface over the pressures and speeds that the campaign has seen.
+
+    None where no load is known, or nothing slides.
+    """
     runs = base.objective.runs
     area = base.objective.specimen.pad_area
     loads = np.concatenate([r.load[r.sliding].ravel() for r in runs])

@@ -192,7 +192,16 @@ def as_json(found: ComparisonData) -> dict[str, Any]:
         "surface": surface,
         **{
             name: rows_of(found, name)
-            for name in ("places", "parameters", "correlations", "layer", "floor", "parity", "cells", "predicted_friction")
+            for name in (
+                "places",
+                "parameters",
+                "correlations",
+                "layer",
+                "floor",
+                "parity",
+                "cells",
+                "predicted_friction",
+            )
         },
         "noise": {"channels": rows_of(found, "noise"), "notes": list(_noise_notes(found))},
         "runs": {"components": rows_of(found, "components"), "system": rows_of(found, "system")},

@@ -15,7 +15,6 @@ from slipwise.model.unused_values import refuse_stated, unused_values
 from slipwise.params import Parameter
 from slipwise.rig import Specimen, load_specimen
 
-
 #: Fraction of critical damping of bearings of which nothing is said [1]: low-damping rubber, assumed.
 _USUAL_DAMPING = 0.05
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from slipwise.arrays import Array
 from slipwise.relations.run_data import FitRun
-from slipwise.relations.table import Block
+from slipwise.relations.table import Block, Residuals
 from slipwise.rig.frame import frame_push
 
 
@@ -35,3 +35,16 @@ def predict_base_shear(run: FitRun, left: Block) -> Array:
     """
     predicted = compute_base_shear(run) + run.states.specimen.mass * left.value * left.noise
     return np.where(left.mask, predicted, np.nan)
+
+
+def pair_forces(run: FitRun, residuals: Residuals, place: int) -> tuple[Array, Array]:
+    """Return measured and predicted force of every pad along x (n, p) [N]; of all bearings (n, 1) where none was.
+
+    Args:
+        run: as measured.
+        residuals: of a fit.
+        place: of the run.
+    """
+    if run.forces_measured:
+        return run.force, residuals.pad_forces[place]
+    return compute_base_shear(run)[:, None], predict_base_shear(run, residuals.block("girder", place))[:, None]

@@ -18,7 +18,6 @@ Source: docs/theory.md, sections 1.2 and 1.4; Harris' Shock and Vibration Handbo
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slipwise.arrays import Array
 from slipwise.campaign.rig_motion import shortening_rate

@@ -176,8 +176,11 @@ def list_base_numbers(
             rated["rig.buffer_stiffness"] = sum(specimen.buffer_stiffness)
         units = {"rig.mass": "kg", "rig.centre_height": "m", "rig.buffer_stiffness": "N/m"}
         if not loads:
-            rated = {key: value for key, value in rated.items() if key == "rig.buffer_stiffness" or (
-                key == "rig.mass" and forces)}
+            rated = {
+                key: value
+                for key, value in rated.items()
+                if key == "rig.buffer_stiffness" or (key == "rig.mass" and forces)
+            }
         out += [_around(key, value, *_RIG_SHARES[key], units[key]) for key, value in rated.items()]
         out += [_small(key, specimen) for key in _SMALL if loads or key not in _OF_LOADS]
         out += [make_free_inertia(specimen, ROLL_INERTIA)] if loads and rolls(specimen) else []

@@ -14,9 +14,9 @@ from slipwise.campaign.states import States, measured_states
 from slipwise.errors import InputError
 from slipwise.jobs.machine_code import kept
 from slipwise.record import Record
+from slipwise.relations.sample_masks import mask_judged_and_ringing, without_estimated_loads
 from slipwise.rig import Specimen
 from slipwise.rig.frame import storey_channels
-from slipwise.relations.sample_masks import mask_judged_and_ringing, without_estimated_loads
 from slipwise.signals.ends import in_frequency
 from slipwise.signals.filters import LowPass, lowpass
 from slipwise.signals.shift import shift
@@ -244,7 +244,9 @@ def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRu
     if not pads:
         forces = [name for p in campaign.specimen.pads if (name := f"pad_{p}_Fx") in states.record]
         reason = f"{', '.join(forces)} without pad_*_N (or pad_*_P) of the same pad" if forces else "no pad_*_Fx"
-        other = f", or of all together from the inertia of {' and '.join(inertia)} if all loads are known" * bool(inertia)
+        other = f", or of all together from the inertia of {' and '.join(inertia)} if all loads are known" * bool(
+            inertia
+        )
         raise InputError(
             f"{run.file}: {reason} was measured; a law of friction is fitted where a pad has both its friction and its "
             f"load{other}; the run has {', '.join(states.record.channels)}"

@@ -66,7 +66,9 @@ def weigh(evaluation: Evaluation) -> Weighing:
         changed = [compute_change_by_faults(faults, values, run) for run in runs] if faults else []
         levels = compute_balance_noise(model, runs, values, reversal, changed)
         if not measurements.forces_measured:
-            noise = [compute_law_noise_in_girder(model.specimen, *each) for each in zip(runs, plain, reversal, strict=True)]
+            noise = [
+                compute_law_noise_in_girder(model.specimen, *each) for each in zip(runs, plain, reversal, strict=True)
+            ]
             levels["girder"] = [np.hypot(*each) for each in zip(levels["girder"], noise, strict=True)]
         sigmas |= {name: tuple(levels[name]) for name in measurements.relations if name in levels}
         rung = compute_ringing_noise(model, runs, values).items()

@@ -12,7 +12,7 @@ from slipwise.channels import channel
 from slipwise.comparison.component_level import NAMES
 from slipwise.comparison.result import Comparison
 from slipwise.noise.level import AT_FLOOR, is_at_floor
-from slipwise.relations.base_shear import compute_base_shear, predict_base_shear
+from slipwise.relations.base_shear import pair_forces
 from slipwise.relations.run_data import FitRun
 from slipwise.units import parse_unit
 from slipwise.view.figures.canvas import new_figure
@@ -117,7 +117,7 @@ def histories_figure(found: Comparison) -> Figure:
             series.append((forces[0], "sum of pad friction [kN]", total[0], total[1]))
     else:
         name = f"pad_{run.pads[0]}_Fx"
-        measured, said = _forces(found, place)
+        measured, said = pair_forces(run, found.base.solution.residuals, place)
         series = [(name, f"{_force_name(run)} [{shown_unit(name)}]", measured[:, 0], said[:, 0])]
     with styled():
         figure = new_figure(10.0, 1.9 * len(series) + 0.6)
@@ -143,7 +143,7 @@ def loops_figure(found: Comparison) -> Figure:
     """Draw measured and predicted friction over slip, every pad as seen from above, and their sum."""
     place = shown_run(found)
     run = found.base.objective.run(place)
-    measured, said = _forces(found, place)
+    measured, said = pair_forces(run, found.base.solution.residuals, place)
     part = widest_loop(run)
     with styled():
         if said.shape[1] == 1:
@@ -185,14 +185,6 @@ def _factor(name: str) -> float:
 
 def _force_unit(force: Array) -> tuple[float, str]:
     return (1e-3, "kN") if float(np.abs(force).max()) > 100.0 else (1.0, "N")
-
-
-def _forces(found: Comparison, place: int) -> tuple[Array, Array]:
-    """Return measured and predicted force of every pad, or of all bearings where none was measured, (n, p) or (n, 1)."""
-    run, residuals = found.base.objective.run(place), found.base.solution.residuals
-    if run.forces_measured:
-        return run.force, residuals.pad_forces[place]
-    return compute_base_shear(run)[:, None], predict_base_shear(run, residuals.block("girder", place))[:, None]
 
 
 def _force_name(run: FitRun) -> str:
