@@ -135,6 +135,10 @@ _MAKERS = {
 }
 
 
+#: Tables that compare.json holds under their own names.
+_LISTED = ("places", "parameters", "correlations", "layer", "floor", "parity", "cells", "predicted_friction")
+
+
 def as_json(found: ComparisonData) -> dict[str, Any]:
     """Return a comparison as compare.json holds it: SI, errors in multiples of the floor, null where unknown.
 
@@ -190,19 +194,7 @@ def as_json(found: ComparisonData) -> dict[str, Any]:
         "audit": {"accused": found.checks.accused, "words": found.checks.words, "findings": rows_of(found, "audit")},
         "worst": {"relation": worst, "error": error},
         "surface": surface,
-        **{
-            name: rows_of(found, name)
-            for name in (
-                "places",
-                "parameters",
-                "correlations",
-                "layer",
-                "floor",
-                "parity",
-                "cells",
-                "predicted_friction",
-            )
-        },
+        **{name: rows_of(found, name) for name in _LISTED},
         "noise": {"channels": rows_of(found, "noise"), "notes": list(_noise_notes(found))},
         "runs": {"components": rows_of(found, "components"), "system": rows_of(found, "system")},
         "cannot": list(found.cannot),

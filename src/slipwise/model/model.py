@@ -85,7 +85,7 @@ class EffectUse(Tabular):
         return {**self.values, **self.own.get(pad, {})}
 
     def unused(self, pads: Sequence[str]) -> dict[str, float]:
-        """Return the values for all pads that no fit finds: held ones, and those in place of which each pad has its own."""
+        """Return the values for all pads that no fit finds: held ones, and those of which each pad has its own."""
         return {
             n: v
             for n, v in self.values.items()
@@ -262,8 +262,8 @@ def _check_parts(specimen: Specimen, use: EffectUse) -> None:
     """Refuse an effect that names a pad or a buffer which the specimen has not, and friction of what does not slide."""
     if not specimen.slides and use.effect.port in FRICTION_PORTS:
         raise SettingError(
-            f'{use.label} is friction of the pads, and those of {specimen.name} do not slide (friction = "none"); leave '
-            "it out, or give the specimen pads that slide"
+            f'{use.label} is friction of the pads, and those of {specimen.name} do not slide (friction = "none"); '
+            "leave it out, or give the specimen pads that slide"
         )
     part, name = part_of(use.target)
     names = {"pad": specimen.pads, "buffer": tuple(buffer.name for buffer in specimen.buffers)}

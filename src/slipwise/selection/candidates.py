@@ -21,6 +21,8 @@ _STEADY_LOAD = 0.005
 #: Channels beside the pads' that the relations of a fit look at: what lies across, and the table's vertical motion, are
 #: held against others by the audit alone.
 _LOOKED_AT = ("slip_x", "girder_ax", "girder_az", "table_ax")
+#: Why effects of friction are no candidates where there is none.
+NOTHING_SLIDES = 'the pads do not slide: the specimen says friction = "none"'
 #: A direction in which a smaller share of the sliding goes is not tried [1].
 _RARELY = 0.05
 #: Speeds of runs that differ by less count as the same [1].
@@ -87,7 +89,7 @@ def _alike(one: float, other: float) -> bool:
 def _untestable(effect: Effect, objective: Objective) -> str:
     """Say what an effect needs first that this campaign has not; "" where it can be tested."""
     if effect.port in FRICTION_PORTS and not objective.specimen.slides:
-        return 'the pads do not slide: the specimen says friction = "none"'
+        return NOTHING_SLIDES
     return next((effect.without(need) for need in effect.all_needs if not HAS[need](objective)), "")
 
 

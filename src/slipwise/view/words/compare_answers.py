@@ -63,8 +63,8 @@ def _layer_words(found: Comparison) -> str:
     one = max(held or found.layer, key=lambda layer: layer.peak_slip)
     return (
         f"In {one.run}, from the inertia of what they carry: period {one.period:.3g} s, {one.damping:.1%} of critical, "
-        f"{one.energy / 1e3:.3g} kJ taken, {one.peak_force:.1%} of the weight at {1e3 * one.peak_slip:.3g} mm. A linear "
-        f"layer of its own leaves {one.linear_left:.1%} of the force, the model {one.model_left:.1%}."
+        f"{one.energy / 1e3:.3g} kJ taken, {one.peak_force:.1%} of the weight at {1e3 * one.peak_slip:.3g} mm. The "
+        f"linear layer nearest to it leaves {one.linear_left:.1%} of the force, the model {one.model_left:.1%}."
     )
 
 
