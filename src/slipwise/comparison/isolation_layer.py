@@ -27,7 +27,7 @@ class IsolationLayer:
         role: "fit", "repeat" or "holdout".
         peak_slip: largest displacement over the bearings [m].
         peak_force: largest force of all bearings over the carried weight [1].
-        energy: that they took over the run [J].
+        energy: that they took over the run, less what the nearest linear spring holds at its end [J].
         stiffness: K of the nearest linear layer [N/m].
         period: of all that is carried on that [s].
         damping: its fraction of critical [1].
@@ -65,6 +65,7 @@ def describe_isolation_layer(base: BaseFit) -> tuple[IsolationLayer, ...]:
         off = {"linear": force[judged] - columns @ [stiffness, dashpot]}
         off["model"] = (force - predict_base_shear(run, left))[judged]
         shares = {name: float(np.sqrt(np.mean(of**2))) / size for name, of in off.items()}
+        held = 0.5 * float(stiffness) * (run.slip[-1] ** 2 - run.slip[0] ** 2)
         turn = float(np.sqrt(max(stiffness, 0.0) / mass))
         found.append(
             IsolationLayer(
@@ -72,7 +73,7 @@ def describe_isolation_layer(base: BaseFit) -> tuple[IsolationLayer, ...]:
                 run.role,
                 float(np.abs(run.slip).max()),
                 float(np.abs(force).max()) / objective.specimen.weight,
-                float(np.trapezoid(force * run.velocity, run.time)),
+                float(np.trapezoid(force * run.velocity, run.time) - held),
                 float(stiffness),
                 2.0 * np.pi / turn if turn else float("inf"),
                 float(dashpot) / (2.0 * mass * turn) if turn else float("inf"),
