@@ -239,14 +239,13 @@ def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRu
     forces_measured = campaign.specimen.slides and any(f"pad_{p}_Fx" in states.record for p in campaign.specimen.pads)
     inertia = () if forces_measured else _inertia_channels(campaign.specimen)
     pads = tuple(p for p in loaded if not forces_measured or f"pad_{p}_Fx" in states.record)
-    if not forces_measured and not (pads == campaign.specimen.pads and states.record.has_all(*inertia)):
+    together = bool(inertia) and pads == campaign.specimen.pads and states.record.has_all(*inertia)
+    if not forces_measured and not together:
         pads = ()
     if not pads:
         forces = [name for p in campaign.specimen.pads if (name := f"pad_{p}_Fx") in states.record]
         reason = f"{', '.join(forces)} without pad_*_N (or pad_*_P) of the same pad" if forces else "no pad_*_Fx"
-        other = f", or of all together from the inertia of {' and '.join(inertia)} if all loads are known" * bool(
-            inertia
-        )
+        other = f", or of all pads together from {' and '.join(inertia)} if all loads are known" if inertia else ""
         raise InputError(
             f"{run.file}: {reason} was measured; a law of friction is fitted where a pad has both its friction and its "
             f"load{other}; the run has {', '.join(states.record.channels)}"
