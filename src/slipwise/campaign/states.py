@@ -15,12 +15,14 @@ import numpy as np
 from slipwise.arrays import Array, Mask
 from slipwise.campaign.aligned import aligned_run
 from slipwise.campaign.campaign import Campaign, Run
+from slipwise.campaign.inertia_loads import estimate_load_errors, estimate_loads_by_inertia
 from slipwise.campaign.motion_phases import is_at_rest, is_inside, is_lifted, is_slow, is_stuck
 from slipwise.campaign.scales import Scales, scales_of
 from slipwise.errors import InputError
 from slipwise.noise.gauges import Gauge, measure_slip_noise
 from slipwise.record import Record
 from slipwise.rig import Specimen
+from slipwise.rig.frame import storey_channels
 from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes, vertical_acceleration
 from slipwise.signals.derivative import derivative
@@ -60,6 +62,8 @@ class States:
         missing: what could not be made for lack of a channel, in words.
         scales: of the campaign.
         velocity_errors: (n,) of the velocity along x where they differ from sample to sample [m/s]; else None.
+        load_errors: (p,) expected error of loads that no cell weighed, made of weight and inertia [N]; None where the
+            loads were measured.
     """
 
     specimen: Specimen
@@ -86,6 +90,7 @@ class States:
     missing: tuple[str, ...]
     scales: Scales = field(default_factory=Scales)
     velocity_errors: Array | None = None
+    load_errors: Array | None = None
 
     @property
     def dt(self) -> float:
@@ -145,7 +150,7 @@ def measured_states(run: Run, campaign: Campaign) -> States:
         campaign: gives specimen and logger; replace its logger by the audit's estimate where it is not known.
 
     Raises:
-        InputError: slip_x was not measured, or neither load nor pressure of a pad.
+        InputError: slip_x was not measured, or neither load nor pressure of a pad nor what its load follows from.
     """
     if "slip_x" not in run.record:
         raise InputError(
@@ -156,10 +161,17 @@ def measured_states(run: Run, campaign: Campaign) -> States:
     specimen = campaign.specimen
     missing: list[str] = []
     pads = [pad for pad in specimen.pads if any(f"pad_{pad}_{kind}" in record for kind in ("N", "P", "Fx"))]
-    load = _loads(record, specimen, pads, run, missing)
+    load_errors: Array | None = None
+    if _is_weighed_by_inertia(record, specimen, run):
+        pads, load = list(specimen.pads), estimate_loads_by_inertia(record, specimen)
+        load_errors = estimate_load_errors(specimen, campaign.gauges)
+        missing.append("pad_*_N: made of the weight and of what inertia turns the girder over with")
+        pitch = _pitch(load, specimen)
+    else:
+        load, pitch = _loads(record, specimen, pads, run, missing), girder_pitch(record, specimen)
     scales = scales_of(campaign)
     unfiltered = lowpass.get("girder_ax") is None
-    along = _along(record, specimen, campaign.gauges, missing, scales, aligned.measured, unfiltered)
+    along = _along(record, pitch, specimen, campaign.gauges, missing, scales, aligned.measured, unfiltered)
     across = _across(record, campaign.gauges, missing)
     yaw = fuse(record.time, record["yaw"]) if "yaw" in record else None
     if yaw is None and specimen.free:
@@ -191,12 +203,31 @@ def measured_states(run: Run, campaign: Campaign) -> States:
         has_yaw=yaw is not None,
         lowpass=lowpass,
         velocity_errors=along.velocity_errors,
+        load_errors=load_errors,
         velocity_error=(along.velocity_error, across.velocity_error if across else 0.0),
         yaw_rate_error=yaw.velocity_error if yaw else 0.0,
         record=record,
         missing=tuple(missing),
         scales=scales,
     )
+
+
+def _is_weighed_by_inertia(record: Record, specimen: Specimen, run: Run) -> bool:
+    """Return whether no pad's load was measured, and the accelerations tell what the girder and its storeys load.
+
+    Raises:
+        InputError: no load was measured, and an acceleration from which it would follow is missing.
+    """
+    if any(f"pad_{pad}_{kind}" in record for pad in specimen.pads for kind in "NP") or not specimen.free:
+        return False
+    needed = ("girder_ax", *storey_channels(specimen.storeys))
+    if absent := [name for name in needed if name not in record]:
+        raise InputError(
+            f"{run.file}: no pad has a load or a pressure, and {', '.join(absent)} is missing, without which the force "
+            "and the loads of the bearings do not follow from inertia; measure the acceleration of the girder and of "
+            f"every storey of the specimen, or leave storeys out of it; the file has {', '.join(run.record.channels)}"
+        )
+    return True
 
 
 def _loads(record: Record, specimen: Specimen, pads: list[str], run: Run, missing: list[str]) -> Array:
@@ -244,14 +275,20 @@ def girder_pitch(record: Record, specimen: Specimen) -> Array | None:
     """
     if not specimen.free or not record.has_all(*(f"pad_{pad}_N" for pad in specimen.pads)):
         return None
+    return _pitch(record.stacked("pad_{}_N", specimen.pads), specimen)
+
+
+def _pitch(load: Array, specimen: Specimen) -> Array:
+    """Return the girder's pitch (n,) [rad] under the loads (n, n_pads) of all pads [N]."""
     basis = basis_of(specimen)
-    pitch = load_modes(record.stacked("pad_{}_N", specimen.pads), basis).pitch
+    pitch = load_modes(load, basis).pitch
     stiffness = basis.half[0] * float(np.array(specimen.springs) @ basis.sides[:, 0] ** 2)
     return (pitch - np.median(pitch)) / stiffness
 
 
 def _along(
     record: Record,
+    pitch: Array | None,
     specimen: Specimen,
     gauges: Mapping[str, Gauge],
     missing: list[str],
@@ -268,7 +305,6 @@ def _along(
         return fuse_scaled(record.time, slip, recorded, scales.time, scales.length)
     relative = record["girder_ax"] - record["table_ax"]
     levels = measure_slip_noise(gauges, "x")
-    pitch = girder_pitch(record, specimen)
     if pitch is None:
         return fuse(record.time, record["slip_x"], relative, recorded, levels, undersampled=unfiltered)
     lean = specimen.centre_height * pitch

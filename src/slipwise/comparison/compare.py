@@ -10,6 +10,7 @@ from slipwise.campaign import Campaign
 from slipwise.comparison.cells import correct_for_many_tests, gather, judge_cells
 from slipwise.comparison.component_level import compute_component_errors, compute_repeat_errors
 from slipwise.comparison.friction_surface import compute_friction_surface
+from slipwise.comparison.isolation_layer import describe_isolation_layer
 from slipwise.comparison.motion_states import classify_motion_states
 from slipwise.comparison.odd_even import split_odd_and_even
 from slipwise.comparison.patterns import find_patterns
@@ -27,6 +28,7 @@ from slipwise.model.file import as_model
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared, fit_prepared
 from slipwise.relations.girder import list_balances
+from slipwise.relations.untold_forces import list_untold_forces
 
 
 @one_thread_algebra()
@@ -103,6 +105,7 @@ def compare(
         system=level,
         intervals=found,
         surface=friction,
+        layer=describe_isolation_layer(base),
         predicted_friction=predict_friction(base),
         cells=cells,
         patterns=patterns,
@@ -123,6 +126,7 @@ def _cannot(base: BaseFit) -> list[str]:
     else:
         absent = [b for b in list_balances(objective.specimen) if b not in objective.relations]
         out += [f"{b} balance: a channel that it needs is missing" for b in absent]
+    out += [f"{name}: {reason}" for name, reason in list_untold_forces(objective.measurements)]
     if not objective.held_out:
         out.append("held-out error: no run has the role holdout; errors are those of the fitted runs")
     if not any(run.role == "repeat" for run in objective.runs):

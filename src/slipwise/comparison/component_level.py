@@ -8,7 +8,9 @@ from numpy.typing import NDArray
 
 from slipwise.arrays import Array
 from slipwise.estimation.base_fit import BaseFit
+from slipwise.relations.base_shear import compute_base_shear
 from slipwise.relations.motions import is_same_motion
+from slipwise.relations.run_data import FitRun
 from slipwise.rig.frame import frame_push
 from slipwise.rig.load_basis import WARPS, basis_of
 
@@ -92,9 +94,11 @@ def compute_dividing_noise(residual: Array, in_floors: Array) -> float:
     return float(np.sqrt(np.sum(residual**2) / np.sum(in_floors**2)))
 
 
-def _measured(relation: str, run, judged: NDArray[np.bool_]) -> Array | None:
+def _measured(relation: str, run: FitRun, judged: NDArray[np.bool_]) -> Array | None:
     if relation == "across":
         return run.across[judged]
+    if relation == "girder" and not run.forces_measured:
+        return compute_base_shear(run)[judged] / run.states.specimen.mass
     if relation == "girder":
         return run.channel("girder_ax")[judged]
     if relation == "heave":

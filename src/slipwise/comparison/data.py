@@ -8,6 +8,7 @@ from slipwise.campaign import Campaign
 from slipwise.comparison.cells import Cell
 from slipwise.comparison.component_level import ComponentError, pool_errors
 from slipwise.comparison.friction_surface import FrictionSurface
+from slipwise.comparison.isolation_layer import IsolationLayer
 from slipwise.comparison.odd_even import Parity
 from slipwise.comparison.patterns import Pattern
 from slipwise.comparison.sentences import ErrorPlace
@@ -37,6 +38,7 @@ class ComparisonData:
         system: the replays; None where there are none, see `cannot`.
         intervals: of the fitted numbers.
         surface: mu(P, V) with its band; None where no load is known.
+        layer: what all bearings did together in every run, where the force of none was measured.
         predicted_friction: mean friction of every run, measured and predicted.
         cells: every part of the samples that was looked at.
         patterns: mean residual over every state of motion.
@@ -58,6 +60,7 @@ class ComparisonData:
     system: SystemLevel | None
     intervals: Intervals
     surface: FrictionSurface | None
+    layer: tuple[IsolationLayer, ...]
     predicted_friction: tuple[PredictedFriction, ...]
     cells: tuple[Cell, ...]
     patterns: tuple[Pattern, ...]

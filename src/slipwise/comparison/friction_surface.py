@@ -36,12 +36,15 @@ class FrictionSurface:
 
 
 def compute_friction_surface(base: BaseFit, found: Intervals) -> FrictionSurface | None:
-    """Return the surface over the pressures and speeds that the campaign has seen; None where no load is known."""
+    """Return the surface over the pressures and speeds that the campaign has seen.
+
+    None where no load is known, or nothing slides.
+    """
     runs = base.objective.runs
     area = base.objective.specimen.pad_area
     loads = np.concatenate([r.load[r.sliding].ravel() for r in runs])
     speeds = np.concatenate([np.abs(r.velocity[r.sliding]) for r in runs])
-    if len(loads) == 0 or not np.isfinite(loads).all():
+    if not base.objective.specimen.slides or len(loads) == 0 or not np.isfinite(loads).all():
         return None
     low, high = np.quantile(loads, [0.005, 0.995])
     pressure = np.linspace(max(low, 1e-3 * high), high, _PRESSURES) / area

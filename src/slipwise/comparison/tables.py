@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -129,8 +130,13 @@ _MAKERS = {
     "parity": _parity,
     "floor": _floor,
     "noise": _noise,
+    "layer": lambda found: [asdict(one) for one in found.layer],
     "predicted_friction": _predicted_friction,
 }
+
+
+#: Tables that compare.json holds under their own names.
+_LISTED = ("places", "parameters", "correlations", "layer", "floor", "parity", "cells", "predicted_friction")
 
 
 def as_json(found: ComparisonData) -> dict[str, Any]:
@@ -147,6 +153,8 @@ def as_json(found: ComparisonData) -> dict[str, Any]:
     parameters: [{parameter, value, low, high, rated, unit, bound, limit}], 95 % intervals
     correlations: [{parameter, other, correlation}], the strongest first
     surface: {pressure, speed, friction, deviation}, mu(P, V), or null
+    layer: [{run, role, peak_slip, peak_force, energy, stiffness, period, damping, linear_left, model_left}], where no
+        bearing's force was measured
     floor: [{relation, floor, near_reversals, unit, repeated_runs}]
     predicted_friction: [{run, role, measured, value, low, high, inside}], mean friction of one pad while sliding
     noise: {channels: [{channel, unit, level, basis, correlation_time}], notes: in words}
@@ -186,10 +194,7 @@ def as_json(found: ComparisonData) -> dict[str, Any]:
         "audit": {"accused": found.checks.accused, "words": found.checks.words, "findings": rows_of(found, "audit")},
         "worst": {"relation": worst, "error": error},
         "surface": surface,
-        **{
-            name: rows_of(found, name)
-            for name in ("places", "parameters", "correlations", "floor", "parity", "cells", "predicted_friction")
-        },
+        **{name: rows_of(found, name) for name in _LISTED},
         "noise": {"channels": rows_of(found, "noise"), "notes": list(_noise_notes(found))},
         "runs": {"components": rows_of(found, "components"), "system": rows_of(found, "system")},
         "cannot": list(found.cannot),

@@ -28,6 +28,7 @@ from slipwise.model import Model
 from slipwise.model.file import as_model
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
+from slipwise.selection.candidates import NOTHING_SLIDES
 from slipwise.selection.explained_alone import list_least_sizes
 from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, refit_for_report
 from slipwise.selection.hypothesis_fit import make_fit
@@ -79,7 +80,7 @@ def diagnose(
     shown = state.final if decided.effects else before
     verdict = with_faults(decided, prepared.gauge_faults, state.best.terms)
     final = found if shown is state.final else make_fit(base, shown, with_slopes=True)
-    reasons = [*state.cannot.items(), *list_limitations(state, final, prepared.faults)]
+    reasons = [*_untested(state), *list_limitations(state, final, prepared.faults)]
     cannot = [f"{name}: {reason}" for name, reason in reasons]
     replayed: dict[str, float] = {}
     if system:
@@ -119,6 +120,13 @@ def diagnose(
         seconds=sum(stages.values()),
         stages=stages,
     )
+
+
+def _untested(state: Search) -> list[tuple[str, str]]:
+    """Return effects that the campaign cannot test, with the reason; friction where nothing slides is named at once."""
+    gone = [name for name, reason in state.cannot.items() if reason == NOTHING_SLIDES]
+    together = [(", ".join(gone), NOTHING_SLIDES)] if gone else []
+    return [*together, *((name, reason) for name, reason in state.cannot.items() if reason != NOTHING_SLIDES)]
 
 
 def _unmended(prepared: Prepared, model: Model | None) -> ResidualSummary | None:

@@ -11,20 +11,23 @@ from slipwise.channels import part_of
 from slipwise.diagnosis.held_out_regime import find_untestable_reason
 from slipwise.diagnosis.identifiability import list_unidentified
 from slipwise.diagnosis.indistinguishable import list_known_effects
-from slipwise.effects import Effect
+from slipwise.effects import FRICTION_PORTS, Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.preparation.sample_fault import SampleFault
 from slipwise.regression.projection import make_projector
 from slipwise.relations.parameters import ZERO, Term
 from slipwise.relations.sample_masks import is_rolling_only_at_rest
+from slipwise.relations.untold_forces import list_untold_forces
 from slipwise.rig.frame import storey_channels
 from slipwise.rig.load_basis import buffers_off_centre
 from slipwise.rig.rocking import coupled
 from slipwise.selection.averaged_rows import AveragedRows, make_averaged_rows
+from slipwise.selection.explained_alone import list_least_sizes
 from slipwise.selection.initial_grid import shapes, strengths
 from slipwise.selection.search_state import Search
 from slipwise.selection.sensitivities import compute_change, compute_stacked_with, small
+from slipwise.units import convert
 
 #: Two effects look alike when their columns agree so well: one run gives 0.95, two after a long rest 0.8 at most [1].
 _ALIKE = 0.85
@@ -38,6 +41,8 @@ _SHOW_NOTHING = ("dead", "wild")
 _NAMED = 3
 #: A column of which the base leaves a smaller share does what the base does [1].
 _NOTHING_LEFT = 3e-5
+#: What a buffer does counts as done by the friction of the pads where that leaves a smaller share of it [1].
+_LIKE_FRICTION = 0.1
 #: A shorter column counts as no response: noise alone is as long as the root of the number of samples [1].
 _MIN_COLUMN_LENGTH = 0.1
 
@@ -55,6 +60,9 @@ def list_limitations(state: Search, final: BaseFit, faults: Sequence[SampleFault
     lost = _balances_not_judged(state, faults)
     return [
         *list_unidentified(final, state.base),
+        *list_untold_forces(state.base.objective.measurements),
+        *_friction_or_buffers(state, rows, project),
+        *_hidden_in_the_sum(state),
         *_alike(state, rows, project),
         *_rests_not_given(state),
         *_zero_not_shown(state, final),
@@ -83,6 +91,47 @@ def _alike(state: Search, rows: AveragedRows, project: Callable[[Array], Array])
             reason = ", and ".join([*_lacking(base.campaign.runs), message])
             apart = fading.confused_with[lasting.name]
             yield f"{fading.name} against {lasting.name}", f"{reason}; what tells them apart: {apart}"
+
+
+def _friction_or_buffers(
+    state: Search, rows: AveragedRows, project: Callable[[Array], Array]
+) -> Iterator[tuple[str, str]]:
+    """Find what buffers may do that the law of friction does as well, where no force tells pads from buffers."""
+    base = state.base
+    if base.objective.forces_measured or not base.objective.specimen.slides:
+        return
+    for term in (t for t in state.terms if t.effect.port == "buffer" and not t.effect.target):
+        columns = [c for c in _columns(base, term, rows) if c is not None and _length(c) > _MIN_COLUMN_LENGTH]
+        left = [_length(project(c)) / _length(c) for c in columns]
+        if left and max(left) < _LIKE_FRICTION:
+            share = 1.0 - max(left) ** 2
+            yield (
+                f"{term.effect.name} against the friction of the pads",
+                f"no pad's friction was measured, and the law's own numbers do {share:.1%} of what it does here; loads "
+                "that vary by vertical motion, other speeds, or pad_*_Fx tell them apart",
+            )
+
+
+def _hidden_in_the_sum(state: Search) -> Iterator[tuple[str, str]]:
+    """Find laws of friction that show in single pads and hardly in what all of them carry together."""
+    base = state.base
+    if base.objective.forces_measured or not base.objective.specimen.slides:
+        return
+    least = list_least_sizes(state.alone)
+    laws = {t.effect.name: t.effect for t in state.terms if t.effect.port in FRICTION_PORTS}
+    for name, (size, unit) in least.items():
+        strengths = (
+            [p for p in laws[name].parameters if p.neutral is not None and p.unit == unit] if name in laws else []
+        )
+        usual = max((abs(p.typical - (p.neutral or 0.0)) for p in strengths), default=np.inf)
+        if size > usual:
+            p = strengths[0]
+            shown = [
+                f"{convert(x, unit, p.shown_in or unit):.2g} {p.shown_in or unit}".removesuffix(" 1")
+                for x in (size, usual)
+            ]
+            reason = f"no pad's friction was measured, and in that of all together it shows from {shown[0]} on"
+            yield name, f"{reason}; its usual size is {shown[1]}"
 
 
 def _beyond_what_was_fitted(base: BaseFit) -> Iterator[tuple[str, str]]:

@@ -13,12 +13,14 @@ import numpy as np
 
 from slipwise.arrays import Array
 from slipwise.noise.independent_samples import SHORTEST_BLOCK
+from slipwise.relations.base_shear import compute_base_shear
 from slipwise.relations.run_data import FitRun
 from slipwise.relations.table import Block
 from slipwise.residual_map.field import ResidualField, take_field
 from slipwise.residual_map.ports import girder_states
 from slipwise.residual_map.splines import SplineBasis, choose_equal_bins
 from slipwise.residual_map.states import WORDS, DrivingState, measured_states, pad_instants, pad_states
+from slipwise.rig.frame import frame_push
 from slipwise.selection.hypothesis import Hypothesis
 
 #: Bins of a curve and of each side of a surface.
@@ -158,6 +160,10 @@ def _size(found: Hypothesis, relation: str) -> float:
 
 
 def _made_of(run: FitRun, relation: str) -> Array:
+    if relation == "girder" and not run.forces_measured:
+        return compute_base_shear(run) / run.states.specimen.mass
+    if relation == "storeys" and not run.loads_measured:
+        return frame_push(run.record, run.states.specimen)
     if relation == "girder":
         return run.states.girder_acceleration[:, 0]
     return run.force if relation == "pads" else run.load.sum(axis=1)

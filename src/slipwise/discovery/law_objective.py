@@ -13,7 +13,6 @@ from slipwise.arrays import Array
 from slipwise.discovery.matching import Match, constants_of, limits, place_of, product_at
 from slipwise.estimation.least_squares import Solution, get_slopes, solve
 from slipwise.estimation.objective import Objective
-from slipwise.relations.girder import pass_through_pitch
 from slipwise.relations.noise import whiten_residual
 from slipwise.relations.pad_law import log_force
 from slipwise.relations.pad_stages import divide_by_noise
@@ -22,6 +21,7 @@ from slipwise.relations.stages import Inputs, Memo, Stage, make_memo
 from slipwise.relations.table import Residuals
 from slipwise.residual_map.states import DrivingState, PadInstants, derived
 from slipwise.signals.filters import LowPass
+from slipwise.signals.pitch import pass_through_pitch
 
 #: A fit ends where a step lowers the squared residual by less than this, and than this share of what is left [1].
 _ENOUGH, _ROUGH = 10.0, 5e-4

@@ -5,7 +5,17 @@ from slipwise.effects._catalogue import base_effects, catalogue, find_effect, lo
 from slipwise.effects._effect import RESPONSE, Effect, moved_channels
 from slipwise.effects._fault import GaugeFault
 from slipwise.effects._fields import NEEDS, Gauges, Limit
-from slipwise.effects._hooks import COMPONENTS, DERIVED, HOOKS, LAGGING, PAD_HOOKS, PAD_INPUTS, PORTS, RIG_MOTION
+from slipwise.effects._hooks import (
+    COMPONENTS,
+    DERIVED,
+    FRICTION_PORTS,
+    HOOKS,
+    LAGGING,
+    PAD_HOOKS,
+    PAD_INPUTS,
+    PORTS,
+    RIG_MOTION,
+)
 from slipwise.effects._read import read_effect
 from slipwise.effects._scaled import holding, scaled, scaled_to_gauge
 from slipwise.effects._skeleton import skeleton
@@ -18,6 +28,7 @@ __all__ = [
     "BalanceStates",
     "COMPONENTS",
     "DERIVED",
+    "FRICTION_PORTS",
     "HOOKS",
     "LAGGING",
     "PAD_HOOKS",

@@ -12,7 +12,8 @@ NEEDS: dict[str, str] = {
     "across": "needs motion across, and friction of the pads along y",
     "prescribed slip": "the girder slides freely: no machine stands between gauge and contact",
     "storeys": "needs a specimen with storeys, the accelerations of all of them, and the balances of its base",
-    "several pads": "one slider only",
+    "loads": "needs the loads of the pads, and none was measured",
+    "several pads": "one slider only, or the friction of no single pad was measured",
     "both directions": "the slider moves one way only, so what leans on direction or place is one with friction",
     "changing load": "the load never changes, and it is then one with {steady}",
 }
@@ -21,7 +22,7 @@ COMPONENT_NEEDS: dict[str, tuple[str, ...]] = {
     "buffer": ("buffers",),
     "girder": ("balances",),
     "table": ("balances",),
-    "pad load": ("balances",),
+    "pad load": ("balances", "loads"),
 }
 #: Roles in the base model: its law of friction, springs of the pads that it estimates, the elastic stick that it does.
 BASE_ROLES: tuple[str, ...] = ("law", "springs", "stick")

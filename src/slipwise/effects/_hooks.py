@@ -162,5 +162,7 @@ PORTS: dict[str, tuple[str, ...]] = {
     "girder": ("rig", "drag", "lift", "balance", "disturb"),
     "gauge": ("gauge", "undo", "sharpen", "corner"),
 }
+#: Ports of the friction of a pad: without friction nothing acts there.
+FRICTION_PORTS: tuple[str, ...] = ("area", "shear", "stick", "pad", "train")
 #: What an effect belongs to in a verdict.
 COMPONENTS: tuple[str, ...] = ("pad friction", "pad load", "buffer", "girder", "table", "instrument")

@@ -143,10 +143,11 @@ def scale_model(model: Model, scales: Scales, *, typical: bool) -> Model:
     if scales == Scales():
         return model
     uses = []
+    typical = typical and model.specimen.slides  # dampers of what does not slide are in the size of this rig already
     for entry in model.uses:
         effect = scaled(catalogue().get(entry.effect.name, entry.effect), scales.of, scales.room)
         values = {n: scales.of(effect.parameter(n).unit) * v if typical else v for n, v in entry.numbers.items()}
-        uses.append(use_of(holding(effect, values), values, entry.target))
+        uses.append(replace(use_of(holding(effect, values), values, entry.target), held=entry.held))
     if not typical:
         return replace(model, uses=tuple(uses))
     rated = model.specimen
@@ -161,7 +162,10 @@ def scale_model(model: Model, scales: Scales, *, typical: bool) -> Model:
 def free_numbers(campaign: Campaign, model: Model, objective: Objective) -> list[Free]:
     """Return what a fit of a model may change, with bounds that this campaign's strokes and gauges set."""
     length, known = objective.scales.length, campaign.logger.known
-    free = list_base_numbers(model, balances=objective.balanced, logger_known=known, length=length)
+    free = list_base_numbers(
+        model, balances=objective.balanced, forces=objective.forces_measured, loads=objective.loads_measured,
+        logger_known=known, length=length,
+    )  # fmt: skip
     stroke = min(float(np.ptp(run.slip)) for run in objective.fitted_runs)
     most = max(_STICK_SHARE * stroke, 1e-7 * length)
     if not model.specimen.free and ZERO not in list_replaced_numbers(u.effect for u in model.uses):

@@ -68,6 +68,16 @@ class Objective:
         return self.measurements.balanced
 
     @property
+    def forces_measured(self) -> bool:
+        """Whether the pads' friction was measured; else what all of them carry together follows from inertia."""
+        return self.measurements.forces_measured
+
+    @property
+    def loads_measured(self) -> bool:
+        """Whether the pads' loads were measured; else they follow from weight and inertia."""
+        return self.measurements.loads_measured
+
+    @property
     def fitted(self) -> list[int]:
         """Places of the runs that may be fitted."""
         return self.measurements.fitted
@@ -118,7 +128,7 @@ class Objective:
     @property
     def inertias(self) -> tuple[str, ...]:
         """Keys of the inertias of the girder that the terms speak of."""
-        rocks = any(is_pitching_table(term) for term in self.terms)
+        rocks = self.loads_measured and any(is_pitching_table(term) for term in self.terms)
         return (YAW_INERTIA,) * self.makes_yaw + (PITCH_INERTIA,) * rocks
 
     @property
@@ -183,7 +193,7 @@ class Objective:
             self.watch()
         evaluation = self.evaluation(values, max(self.fitted) + 1 if fitted_only else None)
         pads = evaluation.of(PADS)
-        left = {"pads": pads.left}
+        left = {"pads": pads.left} if "pads" in self.relations else {}
         if "across" in self.relations:
             left["across"] = evaluation.of(ACROSS)
         if self.balanced:

@@ -68,12 +68,14 @@ class PredictedFriction:
 
 
 def predict_friction(fit: BaseFit) -> tuple[PredictedFriction, ...]:
-    """Return measured and predicted mean friction of every run that slides.
+    """Return measured and predicted mean friction of every run that slides; nothing where no friction was measured.
 
     Args:
         fit: of any model.
     """
     objective = fit.objective
+    if not objective.forces_measured:
+        return ()
     measured = [_mean(run, run.force) for run in objective.runs]
     predicted = [_mean(*both) for both in zip(objective.runs, fit.solution.residuals.pad_forces, strict=True)]
     slid = [i for i in objective.fitted if np.isfinite(measured[i])]

@@ -5,13 +5,18 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from slipwise.channels import check_pattern, part_of
 from slipwise.display import Tabular
-from slipwise.effects import PORTS, Effect, base_effects, catalogue, find_effect
+from slipwise.effects import FRICTION_PORTS, PORTS, Effect, base_effects, catalogue, find_effect
 from slipwise.errors import SettingError, unknown_name
 from slipwise.model.unused_values import refuse_stated, unused_values
 from slipwise.params import Parameter
 from slipwise.rig import Specimen, load_specimen
+
+#: Fraction of critical damping of bearings of which nothing is said [1]: low-damping rubber, assumed.
+_USUAL_DAMPING = 0.05
 
 
 @dataclass(frozen=True, repr=False)
@@ -24,12 +29,14 @@ class EffectUse(Tabular):
         target: the channel it acts on, or channels ("pad_*_N", "all"), for effects that need one; the load of the pad
             on which it sits alone, for effects that may.
         own: pad -> parameter -> value [SI], where a pad has another than all pads.
+        held: parameters that no fit changes: the exponent of a dashpot that is to stay linear.
     """
 
     effect: Effect
     values: Mapping[str, float]
     target: str = ""
     own: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    held: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse unknown parameters, values out of bounds, and a target where none belongs."""
@@ -78,11 +85,11 @@ class EffectUse(Tabular):
         return {**self.values, **self.own.get(pad, {})}
 
     def unused(self, pads: Sequence[str]) -> dict[str, float]:
-        """Return the values for all pads that no fit can find: pads have their own, or only single ones any."""
+        """Return the values for all pads that no fit finds: held ones, and those of which each pad has its own."""
         return {
             n: v
             for n, v in self.values.items()
-            if self.effect.parameter(n).by_pad or all(n in self.own.get(pad, {}) for pad in pads)
+            if n in self.held or self.effect.parameter(n).by_pad or all(n in self.own.get(pad, {}) for pad in pads)
         }
 
     @property
@@ -229,7 +236,7 @@ class Model(Tabular):
     def setting(self, name: str, **values: float | str) -> "Model":
         """Return a model with other parameter values of one effect, as `use` takes them."""
         old = self[name]
-        new = use_of(old.effect, {**old.numbers, **_read(old.effect, values)}, old.target)
+        new = replace(use_of(old.effect, {**old.numbers, **_read(old.effect, values)}, old.target), held=old.held)
         return replace(self, uses=tuple(new if u is old else u for u in self.uses))
 
     @property
@@ -252,7 +259,12 @@ class Model(Tabular):
 
 
 def _check_parts(specimen: Specimen, use: EffectUse) -> None:
-    """Refuse an effect that names a pad or a buffer which the specimen has not."""
+    """Refuse an effect that names a pad or a buffer which the specimen has not, and friction of what does not slide."""
+    if not specimen.slides and use.effect.port in FRICTION_PORTS:
+        raise SettingError(
+            f'{use.label} is friction of the pads, and those of {specimen.name} do not slide (friction = "none"); '
+            "leave it out, or give the specimen pads that slide"
+        )
     part, name = part_of(use.target)
     names = {"pad": specimen.pads, "buffer": tuple(buffer.name for buffer in specimen.buffers)}
     if part and name not in names[part]:
@@ -263,17 +275,27 @@ def _check_parts(specimen: Specimen, use: EffectUse) -> None:
 
 
 def base_model(rig: str | Path | Specimen, effects: Sequence[str | Effect | EffectUse] | None = None) -> Model:
-    """Make a model of a rig with the paper's law.
+    """Make a model of a rig with the paper's law, or with damped springs where its pads do not slide.
 
     Args:
         rig: a name, the path of an MJCF file or of a specimen.toml, or a specimen.
-        effects: names or effects (typical values) or uses; the paper's law, eqs. (7) and (8), when not given.
+        effects: names or effects (typical values) or uses; when not given the paper's law, eqs. (7) and (8), or linear
+            damping of the buffers where the specimen says that its pads do not slide.
 
     Raises:
         SettingError: effects that cannot go together, or a stated value of the specimen that the model does not use.
     """
-    chosen = base_effects("law") if effects is None else effects
     specimen = rig if isinstance(rig, Specimen) else load_specimen(rig)
+    usual = base_effects("law") if specimen.slides else (_linear_damping(specimen),)
+    chosen = usual if effects is None else effects
     model = Model(specimen, tuple(e if isinstance(e, EffectUse) else use(e) for e in chosen))
     refuse_stated(model.specimen, model.unused_values)
     return model
+
+
+def _linear_damping(specimen: Specimen) -> EffectUse:
+    """Return dashpots at the buffers with a usual fraction of critical damping; no fit makes them less linear."""
+    damping = find_effect("buffer_damping").parameter("damping")
+    critical = 2.0 * np.sqrt(sum(specimen.buffer_stiffness) * specimen.carried_mass)
+    each = float(np.clip(_USUAL_DAMPING * critical / len(specimen.buffers), damping.low, damping.high))
+    return replace(use("buffer_damping", damping=each), held=("exponent", "relaxation"))

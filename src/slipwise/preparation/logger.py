@@ -93,7 +93,8 @@ def determine_logger(
         return campaign, None, {}
     fitted = tuple(run for run in campaign.runs if run.role != "holdout")
     found, start = estimate_logger(replace(campaign, runs=fitted)), dict[str, float]()
-    if not campaign.specimen.free:  # of one slider no filter is told from a law
+    # of one slider no filter is told from a law, and without friction nothing turns round at once
+    if not campaign.specimen.free or not campaign.specimen.slides:
         return campaign, found, start
     likeliest = found.likeliest
     if likeliest is None:

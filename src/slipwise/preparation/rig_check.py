@@ -65,7 +65,7 @@ def check_rig(
     if not rig.free or not rig.buffer_stiffness:
         return None
     seen = _numbers_of_balances(balances, rig)
-    if not any(_distance(seen, other) < np.log1p(_NEAR) for other in _other_rigs(rig)):
+    if not seen or not any(_distance(seen, other) < np.log1p(_NEAR) for other in _other_rigs(rig)):
         return None
     try:
         return find_wrong_rig(fit_base(campaign, None, invalid, start))
@@ -116,6 +116,8 @@ def find_wrong_rig(base: BaseFit) -> WrongRig | None:
     """
     values, declared = base.solution.values, base.model.specimen
     if not base.objective.balanced or not declared.buffer_stiffness:
+        return None
+    if not all(f"rig.{name}" in values for name in HELD_AGAINST):  # without measured loads no height is found
         return None
     found = {name: values[f"rig.{name}"] for name in HELD_AGAINST}
     off = _distance(found, declared)

@@ -18,7 +18,6 @@ Source: docs/theory.md, sections 1.2 and 1.4; Harris' Shock and Vibration Handbo
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slipwise.arrays import Array
 from slipwise.campaign.rig_motion import shortening_rate
@@ -38,6 +37,7 @@ from slipwise.rig.load_basis import WARPS, basis_of, by_warp, warps
 from slipwise.rig.load_modes import load_modes
 from slipwise.rig.rocking import rocking_modes
 from slipwise.signals.ends import in_frequency
+from slipwise.signals.pitch import pass_through_pitch
 from slipwise.signals.shift import shift
 from slipwise.simulation.predict import Predictor
 
@@ -61,27 +61,16 @@ def list_available_balances(run: FitRun, specimen: Specimen) -> tuple[str, ...]:
     framed = run.record.has_all(*storey_channels(specimen.storeys))
     if "girder_ax" in run.record and framed:
         out.append("girder")
-    if np.isfinite(run.states.girder_acceleration[:, 2]).all():
+    loads = run.loads_measured
+    if loads and np.isfinite(run.states.girder_acceleration[:, 2]).all():
         out.append("heave")
     rests = not is_rolling_only_at_rest(run.states.has_y, specimen) or np.count_nonzero(run.judged["roll"]) >= ENOUGH
-    out += (["pitch"] if framed else []) + (["roll"] if rests else [])
-    out += warps(specimen)
+    out += (["pitch"] if framed else []) + (["roll"] if rests else []) + [*warps(specimen)] if loads else []
     if specimen.storeys and "girder" in out:
         out.append("storeys")
     if run.record.has_all("girder_ax", "table_ax"):
         out.append("motion")
     return tuple(out)
-
-
-def pass_through_pitch(values: Array, dt: float, frequency: float, damping: float) -> Array:
-    """Pass a pitch load (n,) through the girder's pitch on its pads."""
-
-    def gain(f: Array) -> NDArray[np.complex128]:
-        ratio = f / frequency
-        spring = 1.0 + 2j * damping * ratio
-        return spring / (spring - ratio**2)
-
-    return in_frequency(values, dt, gain, int(3.0 / (dt * frequency * max(damping, 0.01))) + 8)
 
 
 def _rocked(
@@ -149,10 +138,43 @@ def predict_balances(
         values: of the fit, for the pitch of the girder on its pads.
     """
     specimen, rated = model.built_specimen(), model.specimen
-    half, half_y = specimen.half_spacing
-    fb = buffers.sum(axis=1)
+    fb, mass = buffers.sum(axis=1), specimen.mass
     frame = frame_push(run.record, specimen)
-    total = _total(run, force, specimen.mass, fb - frame)
+    total = _total(run, force, mass, fb - frame)
+    predicted = {"girder": _delayed((frame - total - fb) / mass, run.dt, values["rig.late_girder"])}
+    measured = {"girder": run.channel("girder_ax")}
+    if run.loads_measured:
+        if not run.forces_measured:  # what the pads carry together while they stick is in no law
+            total = frame - mass * run.channel("girder_ax") - fb
+        predicted_loads, measured_loads = _predict_loads(specimen, rated, run, total, buffers, values)
+        predicted, measured = predicted | predicted_loads, measured | measured_loads
+    if rated.storeys and "storeys" in list_available_balances(run, rated):
+        predicted["storeys"], measured["storeys"] = predict_push(run, specimen), frame
+    added = compute_effects(model, run, specimen, force, buffers)
+    rocking = [added.pop(name, None) for name in ("roll", "pitch")]
+    if run.loads_measured and any(one is not None for one in rocking):
+        added |= dict(zip(("roll", "pitch"), _rocked((rocking[0], rocking[1]), specimen, run, values), strict=True))
+    for name, more in added.items():
+        if name == "motion" or name not in predicted:
+            continue  # taken out of the states already, or of loads that were not measured
+        predicted[name] = predicted[name] + (-more / mass if name == "girder" else more)
+    return predicted, measured
+
+
+def _predict_loads(
+    specimen: Specimen, rated: Specimen, run: FitRun, total: Array, buffers: Array, values: Mapping[str, float]
+) -> tuple[dict[str, Array], dict[str, Array]]:
+    """Return what the balances of the loads predict and what was measured, each relation (n,) [N].
+
+    Args:
+        specimen: as built.
+        rated: as rated.
+        run: its channels.
+        total: (n,) force of all pads along x [N].
+        buffers: (n, n_buffers) [N].
+        values: of the fit.
+    """
+    half, half_y = specimen.half_spacing
     height = specimen.centre_height
     higher = risen(run.states.slip, specimen) if specimen.pads_on == "table" else 0.0
     moment = (height + higher) * total + buffers @ (height - np.array(specimen.buffer_heights))
@@ -167,31 +189,16 @@ def predict_balances(
         turning = height * run.across.sum(axis=1) + (0.0 if turning is None else turning)
     by_roll = _rocked((None if turning is None else turning / half_y, None), specimen, run, values)
     by_pitch = _rocked((None, (moment + swing) / half), specimen, run, values)
-    basis = basis_of(specimen)
-    modes = load_modes(run.load, basis)
+    modes = load_modes(run.load, basis_of(specimen))
     seated = by_warp(specimen, values.get(SEAT_STIFFNESS, 1.0) * np.array(specimen.springs) * rated.seating)
-    mass, gravity = specimen.mass, specimen.gravity
+    lifted = specimen.carried_mass * (specimen.gravity + run.states.girder_acceleration[:, 2])
     predicted = {
-        "girder": _delayed((frame - total - fb) / mass, run.dt, values["rig.late_girder"]),
-        "heave": _delayed(
-            specimen.carried_mass * (gravity + run.states.girder_acceleration[:, 2]), run.dt, values["rig.late_load"]
-        ),
+        "heave": _delayed(lifted, run.dt, values["rig.late_load"]),
         "pitch": _delayed(by_pitch[1], run.dt, values["rig.late_pitch"]) + by_roll[1],
         "roll": _delayed(by_pitch[0], run.dt, values["rig.late_pitch"]) + by_roll[0],
         **{name: np.full(len(heave), load) for name, load in seated.items()},
     }
-    measured = {"girder": run.channel("girder_ax"), "heave": heave, "pitch": modes.pitch, "roll": modes.roll}
-    measured |= by_warp(specimen, run.load)
-    if rated.storeys and "storeys" in list_available_balances(run, rated):
-        predicted["storeys"], measured["storeys"] = predict_push(run, specimen), frame
-    added = compute_effects(model, run, specimen, force, buffers)
-    rocking = [added.pop(name, None) for name in ("roll", "pitch")]
-    if any(one is not None for one in rocking):
-        added |= dict(zip(("roll", "pitch"), _rocked((rocking[0], rocking[1]), specimen, run, values), strict=True))
-    for name, more in added.items():
-        if name == "motion":
-            continue  # taken out of the states already
-        predicted[name] = predicted[name] + (-more / mass if name == "girder" else more)
+    measured = {"heave": heave, "pitch": modes.pitch, "roll": modes.roll, **by_warp(specimen, run.load)}
     return predicted, measured
 
 

@@ -56,7 +56,7 @@ def _leave_of_balances(inputs: Inputs) -> dict[str, list[Array]]:
     if "heave" in out and sigmas:
         masked = 1.0 - (compute_heave_level(model, runs[0], scale) / float(np.min(sigmas["heave"][0]))) ** 2
     driven: list[Array | None] = [None] * len(runs)
-    if sigmas and any(is_pitching_table(term) for term in own):
+    if "pitch" in out and sigmas and any(is_pitching_table(term) for term in own):
         driven = [*compute_driven_noise_in_pitch(model, runs, values)]
     for i, (run, (force, _)) in enumerate(zip(runs, inputs.of(MEASURED_FRICTION), strict=True)):
         law.rest(run.rest_before)

@@ -14,7 +14,7 @@ from scipy.signal import fftconvolve
 from slipwise.arrays import Array
 from slipwise.model import Model
 from slipwise.relations.evaluation_times import Instants
-from slipwise.relations.girder import compute_buffer_forces, compute_effects, compute_heave_rate, pass_through_pitch
+from slipwise.relations.girder import compute_buffer_forces, compute_effects, compute_heave_rate
 from slipwise.relations.run_data import FAST, FitRun
 from slipwise.relations.storeys import compute_noise_in_push
 from slipwise.relations.unsampled_reversals import compute_jump_noise_in_pitch, compute_jump_noise_in_push
@@ -22,6 +22,7 @@ from slipwise.rig import Specimen
 from slipwise.rig.frame import frame_noise
 from slipwise.rig.load_basis import basis_of, warps
 from slipwise.signals.ends import in_frequency
+from slipwise.signals.pitch import pass_through_pitch
 from slipwise.simulation.predict import PadForces, predictor
 
 #: Uncertainty of the timing of a reversal: shear of pad and cell, cards of the logger [s].
@@ -63,6 +64,23 @@ def compute_pad_noise(run: FitRun, plain: Array, reversal: Array) -> Array:
     gauge, loads = run.gauge_noise
     friction = np.abs(plain) / np.maximum(run.load, 0.05 * run.load.mean())
     return np.sqrt(np.maximum(gauge**2 + (0.6 * friction * loads) ** 2 + reversal**2, 1e-24))
+
+
+def compute_law_noise_in_girder(specimen: Specimen, run: FitRun, plain: Array, reversal: Array) -> Array:
+    """Return the noise that predicted friction brings into the girder's balance (n,) [m/s^2], where none was measured.
+
+    Errors of velocity and timing are those of the girder and so of all pads at once; errors of the loads of a girder
+    that rocks cancel in the sum.
+
+    Args:
+        specimen: its mass.
+        run: its loads.
+        plain: (n, p) predicted by the law [N].
+        reversal: (n, p) of `compute_reversal_noise` [N].
+    """
+    friction = np.abs(plain) / np.maximum(run.load, 0.05 * run.load.mean())
+    by_load = 0.6 * np.linalg.norm(friction * run.gauge_noise[1], axis=1)
+    return np.hypot(by_load, reversal.sum(axis=1)) / specimen.mass
 
 
 def compute_noise_across(run: FitRun, state: Instants, law_forces: PadForces) -> Array:
@@ -167,7 +185,7 @@ def compute_balance_noise(
     for i, run in enumerate(runs):
         levels = {name: np.array(level) for name, level in compute_gauge_noise_in_balances(model.specimen, run).items()}
         more: dict[str, Array] = {}
-        if changed:
+        if changed and run.forces_measured:
             more = compute_noise_of_correction(
                 model.specimen, reversal[i], changed[i], compute_pitch_impulse_response(run, values)
             )
@@ -175,7 +193,7 @@ def compute_balance_noise(
             more |= compute_vertical_friction_noise(
                 model, run, compute_buffer_forces(springs, run, *np.zeros((2, len(run.time))))
             )
-        if run.filtered is None and "rig.logger" not in values:
+        if run.filtered is None and "rig.logger" not in values and run.loads_measured and run.forces_measured:
             pitch = (values["rig.pitch_frequency"], values["rig.pitch_damping"])
             more["pitch"] = np.hypot(more.get("pitch", 0.0), compute_jump_noise_in_pitch(model.specimen, run, *pitch))
             if model.specimen.storeys:
@@ -270,7 +288,8 @@ def compute_force_noise_in_pitch(run: FitRun, specimen: Specimen, values: Mappin
     Returns:
         spectrum (m,) at the frequencies of a real transform, as the variance of white noise of that height [N^2].
     """
-    levers = specimen.centre_height * run.gauge_noise[0]
+    total = run.gauge_noise[0] if run.forces_measured else np.array([specimen.mass * run.noise.get("girder_ax", 0.0)])
+    levers = specimen.centre_height * total
     squared = float(np.sum(levers**2)) + frame_noise(specimen, run.noise)[1] ** 2
     ringing = compute_pitch_impulse_response(run, values) / specimen.half_spacing[0]
     return squared * np.abs(np.fft.rfft(ringing)) ** 2
@@ -330,7 +349,9 @@ def compute_noise_of_correction(
 
 def compute_ringing_noise(model: Model, runs: Sequence[FitRun], values: Mapping[str, float]) -> dict[str, list[Array]]:
     """Return what rings with gauges' noise in pitch and heave: relation -> per run spectrum (m,) [N^2]."""
-    ringing = {"pitch": [compute_force_noise_in_pitch(r, model.specimen, values) for r in runs]}
+    ringing: dict[str, list[Array]] = {}
+    if all(run.loads_measured for run in runs):
+        ringing["pitch"] = [compute_force_noise_in_pitch(r, model.specimen, values) for r in runs]
     if model.specimen.storeys:
         ringing["storeys"] = [compute_noise_in_push(r, model.specimen) for r in runs]
     if model.with_hook("balance"):

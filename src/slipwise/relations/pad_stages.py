@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from slipwise.arrays import Array
+from slipwise.effects import FRICTION_PORTS
 from slipwise.relations.evaluation_times import Instants
 from slipwise.relations.kinematics import CORRECTED, RIG_MOTIONS, STATES
 from slipwise.relations.measurement import apply_on_force, is_on_force_gauge
@@ -17,7 +18,6 @@ from slipwise.relations.transverse_friction import predict_logged_across
 from slipwise.signals.filters import LowPass
 from slipwise.simulation.predict import PadForces, predictor
 
-_PAD_PORTS = ("area", "shear", "stick", "train", "pad")
 _LAW_NUMBERS = ("rig.shear_strength",)
 #: Where a model has its own memory of slip, or nothing is fitted yet [m].
 _SHORT_STICK = 1e-6
@@ -25,7 +25,7 @@ _SHORT_STICK = 1e-6
 
 def is_on_pads(term: Term) -> bool:
     """Return whether the law of the pads depends on a term."""
-    return (term.effect.port in _PAD_PORTS and bool(term.effect.instant_hooks)) or "rig" in term.effect.hooks
+    return (term.effect.port in FRICTION_PORTS and bool(term.effect.instant_hooks)) or "rig" in term.effect.hooks
 
 
 def is_reversing(term: Term) -> bool:
@@ -43,7 +43,7 @@ class PadResiduals:
     """What is left of the pads' friction along x.
 
     Attributes:
-        left: per run (n, p) [noise].
+        left: per run (n, p) [noise]; empty where friction was not measured.
         predicted: per run (n, p), faults of the gauges included [N].
     """
 
@@ -101,12 +101,16 @@ def _log(inputs: Inputs) -> list[Array]:
 
 def _measured_friction(inputs: Inputs) -> list[tuple[Array, Array]]:
     runs = inputs.of(CORRECTED).runs
+    if not inputs.measurements.forces_measured:  # balances hold what the law says instead
+        return [(force, np.zeros_like(force)) for force in inputs.of(LOGGED_FORCES)]
     forces = inputs.of(LOGGED_FORCES) if inputs.terms else [run.force for run in runs]
     pairs = zip(runs, forces, strict=True)
     return [apply_on_force(inputs.terms, inputs.values, run, force, inputs.around) for run, force in pairs]
 
 
 def _leave_of_pads(inputs: Inputs) -> PadResiduals:
+    if not inputs.measurements.forces_measured:
+        return PadResiduals([], inputs.of(LOGGED_FORCES))
     left, predicted = [], []
     faults = inputs.of(MEASURED_FRICTION)
     for i, (run, force) in enumerate(zip(inputs.of(CORRECTED).runs, inputs.of(LOGGED_FORCES), strict=True)):

@@ -35,6 +35,8 @@ _SMALL: dict[str, tuple[float, float, float, float, str]] = {
     "rig.late_pitch": (0.0, -MAX_CARD_DELAY, MAX_CARD_DELAY, 5e-5, "s"),
     "rig.late_slip": (0.0, -MAX_CARD_DELAY, MAX_CARD_DELAY, 5e-5, "s"),
 }
+#: Those that only measured loads show.
+_OF_LOADS = ("rig.pitch_frequency", "rig.pitch_damping", "rig.pitch_slip", "rig.late_load", "rig.late_pitch")
 #: The lag of these channels is the number; an effect on them that has a `lag` takes its place.
 _LAGS: dict[str, str] = {
     "rig.late_force": "pad_*_Fx",
@@ -140,12 +142,19 @@ def make_terms(model: Model) -> tuple[Term, ...]:
     )
 
 
-def list_base_numbers(model: Model, *, balances: bool, logger_known: bool = True, length: float = 1.0) -> list[Free]:
+def list_base_numbers(
+    model: Model, *, balances: bool, forces: bool = True, loads: bool = True, logger_known: bool = True,
+    length: float = 1.0,
+) -> list[Free]:  # fmt: skip
     """Return the base parameters: those of the model's effects, and the rig's numbers where balances can see them.
+
+    Of forces that follow from inertia alone only the ratio to the mass is known: the mass is as rated then.
 
     Args:
         model: the user's model.
         balances: whether the campaign has what the girder's balances need.
+        forces: whether the pads' friction was measured.
+        loads: whether the pads' loads were measured.
         logger_known: whether the campaign says what the logger did.
         length: scale of lengths [1].
     """
@@ -156,27 +165,34 @@ def list_base_numbers(model: Model, *, balances: bool, logger_known: bool = True
             value = entry.numbers[p.name]
             scale = abs(value) or abs(p.typical) or 0.1 * (p.high - p.low)
             out.append(Free(f"{entry.label}.{p.name}", value, p.low, p.high, scale, p.unit))
-    if not model.reverses:
-        out.append(list_stick_numbers(length))
     specimen = model.specimen
-    if "rig.shear_strength" not in list_replaced_numbers(u.effect for u in model.uses):
+    if not model.reverses and specimen.slides:
+        out.append(list_stick_numbers(length))
+    if specimen.slides and "rig.shear_strength" not in list_replaced_numbers(u.effect for u in model.uses):
         out.append(_around("rig.shear_strength", specimen.shear_strength, 1e-3, 1e3, "Pa"))
     if balances:
         rated = {"rig.mass": specimen.mass, "rig.centre_height": specimen.centre_height}
         if specimen.buffer_stiffness:
             rated["rig.buffer_stiffness"] = sum(specimen.buffer_stiffness)
         units = {"rig.mass": "kg", "rig.centre_height": "m", "rig.buffer_stiffness": "N/m"}
+        if not loads:
+            rated = {
+                key: value
+                for key, value in rated.items()
+                if key == "rig.buffer_stiffness" or (key == "rig.mass" and forces)
+            }
         out += [_around(key, value, *_RIG_SHARES[key], units[key]) for key, value in rated.items()]
-        out += [_small(key, specimen) for key in _SMALL]
-        out += [make_free_inertia(specimen, ROLL_INERTIA)] if rolls(specimen) else []
-        if is_uneven(specimen):
+        out += [_small(key, specimen) for key in _SMALL if loads or key not in _OF_LOADS]
+        out += [make_free_inertia(specimen, ROLL_INERTIA)] if loads and rolls(specimen) else []
+        if loads and is_uneven(specimen):
             out.append(_around(SEAT_STIFFNESS, 1.0, *_RIG_SHARES[SEAT_STIFFNESS], "1"))
     elif specimen.free:  # the sliding plane moves against the gauge all the same
         out.append(_small("rig.pitch_slip", specimen))
     if specimen.free:
         card_delay = MAX_CARD_DELAY if logger_known else _MAX_CARD_DELAY_UNKNOWN
-        out.append(Free("rig.late_force", 0.0, -card_delay, card_delay, 5e-5, "s"))
-        if not logger_known:
+        if forces:
+            out.append(Free("rig.late_force", 0.0, -card_delay, card_delay, 5e-5, "s"))
+        if not logger_known and specimen.slides:
             out.append(Free("rig.logger", *_LOGGER, "Hz"))
     delayed = {entry.target for entry in model.uses if entry.effect.lag}
     return [f for f in out if f.key not in _LAGS or not _covered(_LAGS[f.key], delayed, specimen)]

@@ -15,6 +15,8 @@ from slipwise.errors import InputError
 from slipwise.jobs.machine_code import kept
 from slipwise.record import Record
 from slipwise.relations.sample_masks import mask_judged_and_ringing, without_estimated_loads
+from slipwise.rig import Specimen
+from slipwise.rig.frame import storey_channels
 from slipwise.signals.ends import in_frequency
 from slipwise.signals.filters import LowPass, lowpass
 from slipwise.signals.shift import shift
@@ -40,7 +42,7 @@ class FitRun:
         filtered: what the logger did to the friction channels; None where nothing is known.
         pads: names of the pads whose friction and load were measured, in the order of the rig.
         load: (n, p) [N].
-        force: (n, p) along x [N].
+        force: (n, p) along x [N]; zero where it was not measured, see `forces_measured`.
         across: (n, p) along y [N]; empty (n, 0) where it was not measured.
         sliding: (n,) samples at which the law gives the force of a pad.
         judged: relation -> samples by which it is judged, see `sample_masks`.
@@ -51,6 +53,8 @@ class FitRun:
         rigid_rotation_acceleration: part of the girder's acceleration over the table that is no slip, because both
             rotate as one body, (n,) or 0 [m/s^2].
         fine: instants per sample at which the laws are evaluated.
+        forces_measured: whether the pads' friction was measured; else only what all bearings carry together is known,
+            from the inertia of girder and storeys.
     """
 
     name: str
@@ -70,6 +74,12 @@ class FitRun:
     noise: dict[str, float] = field(default_factory=dict[str, float])
     rigid_rotation_acceleration: Array | float = 0.0
     fine: int = FINE
+    forces_measured: bool = True
+
+    @property
+    def loads_measured(self) -> bool:
+        """Whether the pads' loads were measured; else they are made of weight and inertia."""
+        return self.states.load_errors is None
 
     @property
     def record(self) -> Record:
@@ -104,7 +114,7 @@ class FitRun:
     @cached_property
     def gauge_noise(self) -> tuple[Array, Array]:
         """Noise of the pads' gauges of friction and load, (p,) each [N]."""
-        friction = np.array([self.noise[f"pad_{p}_Fx"] for p in self.pads])
+        friction = np.array([self.noise[f"pad_{p}_Fx"] if self.forces_measured else 0.0 for p in self.pads])
         return friction, np.array([self.noise.get(f"pad_{p}_N", 0.0) for p in self.pads])
 
     @cached_property
@@ -116,7 +126,7 @@ class FitRun:
     def all_loads(self) -> Array | None:
         """Load of all pads of the rig (n, n_pads) [N], whether or not their friction was measured; None without."""
         pads = self.states.specimen.pads
-        if self.pads == pads:
+        if self.pads == pads and self.loads_measured:
             return self.load
         names = [f"pad_{p}_N" for p in pads]
         return np.stack([self.record[n] for n in names], axis=1) if self.record.has_all(*names) else None
@@ -141,7 +151,7 @@ class FitRun:
         if moved:
             slip, velocity = self._moved(record)
             states = replace(states, slip=slip, velocity=velocity)
-        force = _stacked(record, self.pads, "Fx", self.force)
+        force = _stacked(record, self.pads, "Fx", self.force) if self.forces_measured else self.force
         across = _stacked(record, self.pads, "Fy", self.across)
         return replace(self, states=states, load=states.load, force=force, across=across)
 
@@ -204,7 +214,7 @@ def fit_runs(campaign: Campaign, invalid: InvalidSamples | None = None) -> list[
         invalid: run -> channel -> samples (n,) at which it is no measurement, besides the wild ones of the runs.
 
     Raises:
-        InputError: a run lacks slip, or a pad's friction.
+        InputError: a run lacks slip, or both a pad's friction and the inertia from which that of all follows.
     """
     runs = [_fit_run(run, campaign, add_wild_samples(run, (invalid or {}).get(run.name, {}))) for run in campaign.runs]
     levels = {channel: gauge.level for channel, gauge in campaign.gauges.items()}
@@ -212,39 +222,67 @@ def fit_runs(campaign: Campaign, invalid: InvalidSamples | None = None) -> list[
         {channel: float(np.hypot(levels.get(channel, 0.0), error)) for channel, error in run.estimated.items()}
         for run in campaign.runs
     )
-    return [replace(r, noise={**levels, **wider}) for r, wider in zip(runs, estimated, strict=True)]
+    return [
+        replace(r, noise={**levels, **wider, **_noise_of_estimated_loads(r)})
+        for r, wider in zip(runs, estimated, strict=True)
+    ]
+
+
+def _noise_of_estimated_loads(run: FitRun) -> dict[str, float]:
+    errors = run.states.load_errors
+    return {} if errors is None else {f"pad_{p}_N": float(e) for p, e in zip(run.pads, errors, strict=True)}
 
 
 def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRun:
     states = measured_states(run, campaign)
     loaded = [p for p, load in zip(states.pads, states.load.T, strict=True) if np.isfinite(load).any()]
-    pads = tuple(p for p in loaded if f"pad_{p}_Fx" in states.record)
+    forces_measured = campaign.specimen.slides and any(f"pad_{p}_Fx" in states.record for p in campaign.specimen.pads)
+    inertia = () if forces_measured else _inertia_channels(campaign.specimen)
+    pads = tuple(p for p in loaded if not forces_measured or f"pad_{p}_Fx" in states.record)
+    together = bool(inertia) and pads == campaign.specimen.pads and states.record.has_all(*inertia)
+    if not forces_measured and not together:
+        pads = ()
     if not pads:
         forces = [name for p in campaign.specimen.pads if (name := f"pad_{p}_Fx") in states.record]
         reason = f"{', '.join(forces)} without pad_*_N (or pad_*_P) of the same pad" if forces else "no pad_*_Fx"
+        other = f", or of all pads together from {' and '.join(inertia)} if all loads are known" if inertia else ""
         raise InputError(
             f"{run.file}: {reason} was measured; a law of friction is fitted where a pad has both its friction and its "
-            f"load; the run has {', '.join(states.record.channels)}"
+            f"load{other}; the run has {', '.join(states.record.channels)}"
         )
     here = [states.pads.index(p) for p in pads]
     load = states.load[:, here]
-    states = replace(states, pads=pads, load=load, force=states.force[:, here])
+    errors = states.load_errors
+    states = replace(
+        states, pads=pads, load=load, force=states.force[:, here],
+        load_errors=None if errors is None else errors[here],
+    )  # fmt: skip
     margin = max(2, round(_STUCK_MARGIN * states.scales.time / states.dt))
     grounded = states.usable & np.isfinite(load).all(axis=1)
     sliding = grounded & ~_widened(states.stuck, margin)
-    force = _stacked(states.record, pads, "Fx", states.load)
-    filtered = states.lowpass.get(f"pad_{pads[0]}_Fx")
+    unmeasured = np.zeros_like(states.load)
+    force = _stacked(states.record, pads, "Fx", unmeasured) if forces_measured else unmeasured
+    shows_force = f"pad_{pads[0]}_Fx" if forces_measured else "girder_ax"
+    filtered = states.lowpass.get(shows_force)
     rest = 0.0 if run.rest_before is None else run.rest_before
     nothing = np.empty((len(force), 0))
-    across = _stacked(states.record, pads, "Fy", nothing) if states.has_y else nothing
+    across = _stacked(states.record, pads, "Fy", nothing) if states.has_y and forces_measured else nothing
     fast = np.hypot(*states.velocity.T) > FAST * states.scales.speed
     # samples were looked at as recorded; a gap of theirs is filled on the axis of the states
     bad = {c: np.interp(states.time, run.record.time, m.astype(float)) > 0.0 for c, m in invalid.items()}
+    told = sliding | (not campaign.specimen.slides)
     kept, ringing = mask_judged_and_ringing(states, grounded, sliding, fast, pads, bad)
+    if not forces_measured:  # while pads stick a law does not say what they carry together
+        kept["girder"] = kept["girder"] & told
     kept = without_estimated_loads(kept) if run.estimated else kept
-    unseen = campaign.logger.unseen(f"pad_{pads[0]}_Fx")
-    more = {"unseen": unseen, "ringing": ringing}
+    unseen = campaign.logger.unseen(shows_force)
+    more = {"unseen": unseen, "ringing": ringing, "forces_measured": forces_measured}
     return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, kept, bad, **more)
+
+
+def _inertia_channels(specimen: Specimen) -> tuple[str, ...]:
+    """Return the accelerations from which the force of all bearings follows; none where the slip is prescribed."""
+    return ("girder_ax", *storey_channels(specimen.storeys)) if specimen.free else ()
 
 
 def _stacked(record: Record, pads: tuple[str, ...], kind: str, otherwise: Array) -> Array:

@@ -36,17 +36,27 @@ class Measurements:
         """Names of the relations that every run allows, in the order in which their residuals are stacked."""
         balances = (r for r in BALANCES if all(r in list_available_balances(x, self.specimen) for x in self.runs))
         across = ("across",) if all(r.across.size for r in self.runs) else ()
-        return ("pads", *balances, *across)
+        return (*(("pads",) if self.forces_measured else ()), *balances, *across)
 
     @property
     def balanced(self) -> bool:
         """Whether the balances of a girder are there."""
-        return len(self.relations) > 1 + ("across" in self.relations)
+        return bool({*self.relations} - {"pads", "across"})
+
+    @property
+    def forces_measured(self) -> bool:
+        """Whether the pads' friction was measured in every run."""
+        return all(run.forces_measured for run in self.runs)
+
+    @property
+    def loads_measured(self) -> bool:
+        """Whether the pads' loads were measured in every run."""
+        return all(run.loads_measured for run in self.runs)
 
     @property
     def yaw_is_computable(self) -> bool:
         """Whether all pads' forces were measured, and yaw was not."""
-        return self.balanced and not self.runs[0].states.has_yaw
+        return self.balanced and self.forces_measured and not self.runs[0].states.has_yaw
 
     @cached_property
     def fitted(self) -> list[int]:

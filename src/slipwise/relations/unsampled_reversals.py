@@ -14,10 +14,10 @@ import numpy as np
 from scipy.signal import fftconvolve
 
 from slipwise.arrays import Array
-from slipwise.relations.girder import pass_through_pitch
 from slipwise.relations.run_data import FitRun
 from slipwise.rig import Specimen
 from slipwise.rig.storeys import frame_modes
+from slipwise.signals.pitch import pass_through_pitch
 from slipwise.signals.sampled_jumps import squared_jumps
 
 #: Instants of a step at which a jump may be.

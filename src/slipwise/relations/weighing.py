@@ -2,12 +2,15 @@
 
 from dataclasses import replace
 
+import numpy as np
+
 from slipwise.arrays import Array
 from slipwise.model import Model
 from slipwise.relations.kinematics import CORRECTED, RIG_MOTIONS, STATES, compute_compliance, compute_pad_states
 from slipwise.relations.measurement import apply_on_force, compute_change_by_faults
 from slipwise.relations.noise import (
     compute_balance_noise,
+    compute_law_noise_in_girder,
     compute_noise_across,
     compute_pad_noise,
     compute_reversal_noise,
@@ -55,11 +58,18 @@ def weigh(evaluation: Evaluation) -> Weighing:
         for i, run in enumerate(runs):
             forces[i] = forces[i] + apply_on_force(faults, values, run, forces[i])[1]
     reversal = [compute_reversal_noise(*each) for each in zip(runs, plain, slower, faster, strict=True)]
-    sigmas = {"pads": tuple(compute_pad_noise(*each) for each in zip(runs, plain, reversal, strict=True))}
+    sigmas: dict[str, tuple[Array, ...]] = {}
+    if measurements.forces_measured:
+        sigmas["pads"] = tuple(compute_pad_noise(*each) for each in zip(runs, plain, reversal, strict=True))
     ringing: dict[str, tuple[Array, ...]] = {}
     if measurements.balanced:
         changed = [compute_change_by_faults(faults, values, run) for run in runs] if faults else []
         levels = compute_balance_noise(model, runs, values, reversal, changed)
+        if not measurements.forces_measured:
+            noise = [
+                compute_law_noise_in_girder(model.specimen, *each) for each in zip(runs, plain, reversal, strict=True)
+            ]
+            levels["girder"] = [np.hypot(*each) for each in zip(levels["girder"], noise, strict=True)]
         sigmas |= {name: tuple(levels[name]) for name in measurements.relations if name in levels}
         rung = compute_ringing_noise(model, runs, values).items()
         ringing = {name: tuple(of) for name, of in rung if name in measurements.relations}

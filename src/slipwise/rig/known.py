@@ -27,7 +27,7 @@ SPECIMEN_UNITS: Mapping[str, str] = {
     "gravity": "m/s^2",
 }
 #: What may be chosen by a word.
-SPECIMEN_WORDS: tuple[str, ...] = ("pads_on", "stick_capacity")
+SPECIMEN_WORDS: tuple[str, ...] = ("pads_on", "stick_capacity", "friction")
 
 
 def read_known(part: Mapping[str, Any], where: str) -> dict[str, float | str]:

@@ -31,6 +31,8 @@ class Specimen:
         plastic_pressure: p_m of eq. (2), the real pressure of contact without `contact_area` [Pa].
         shear_strength: s of eq. (1) without `shear_rate` [Pa].
         stick_capacity: "slow" sticks up to friction at zero speed, "full" up to friction at high speed.
+        friction: "pads" where the pads slide with friction; "none" where they only carry the weight and the buffers
+            are the isolators, as rubber bearings are.
         buffers: none or more.
         bending_mass: modal mass of the girder's first vertical mode; 0 for a rigid girder [kg].
         bending_frequency: its frequency on a fixed base [Hz].
@@ -59,6 +61,7 @@ class Specimen:
     centre_y: float = 0.0
     pads_on: str = "table"
     stick_capacity: str = "slow"
+    friction: str = "pads"
     edge_distance: float = 1.5
     bending_mass: float = 0.0
     bending_frequency: float = 15.0
@@ -89,6 +92,23 @@ class Specimen:
             raise unknown_name("side that carries the pads", self.pads_on, ("table", "girder"))
         if self.stick_capacity not in ("slow", "full"):
             raise unknown_name("stick capacity", self.stick_capacity, ("slow", "full"))
+        if self.friction not in ("pads", "none"):
+            raise unknown_name("friction", self.friction, ("pads", "none"))
+        if not self.slides and not self.free:
+            raise SettingError(
+                f'{self.name}: friction = "none" needs a girder that is free; a slider whose slip is prescribed shows '
+                "nothing but its friction"
+            )
+        if not self.slides and not self.buffers:
+            raise SettingError(
+                f'{self.name}: with friction = "none" nothing holds the girder; give the isolators as [buffers], each '
+                "with its place and its stiffness"
+            )
+
+    @property
+    def slides(self) -> bool:
+        """Whether the pads slide with friction; bearings that do not are buffers, and the pads carry the weight."""
+        return self.friction == "pads"
 
     @property
     def pads(self) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ from itertools import combinations
 
 import numpy as np
 
-from slipwise.effects import Effect, catalogue, for_pads, scaled, scaled_to_gauge
+from slipwise.effects import FRICTION_PORTS, Effect, catalogue, for_pads, scaled, scaled_to_gauge
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.objective import Objective
 from slipwise.preparation.gauge_groups import find_places_of_gauges
@@ -21,6 +21,8 @@ _STEADY_LOAD = 0.005
 #: Channels beside the pads' that the relations of a fit look at: what lies across, and the table's vertical motion, are
 #: held against others by the audit alone.
 _LOOKED_AT = ("slip_x", "girder_ax", "girder_az", "table_ax")
+#: Why effects of friction are no candidates where there is none.
+NOTHING_SLIDES = 'the pads do not slide: the specimen says friction = "none"'
 #: A direction in which a smaller share of the sliding goes is not tried [1].
 _RARELY = 0.05
 #: Speeds of runs that differ by less count as the same [1].
@@ -86,6 +88,8 @@ def _alike(one: float, other: float) -> bool:
 
 def _untestable(effect: Effect, objective: Objective) -> str:
     """Say what an effect needs first that this campaign has not; "" where it can be tested."""
+    if effect.port in FRICTION_PORTS and not objective.specimen.slides:
+        return NOTHING_SLIDES
     return next((effect.without(need) for need in effect.all_needs if not HAS[need](objective)), "")
 
 
@@ -100,8 +104,11 @@ def _one_way(objective: Objective) -> bool:
 
 
 def _load_varies(objective: Objective) -> bool:
-    """Return whether the load changes within a run that is fitted, or from one of them to another."""
-    loads = [run.load for run in objective.fitted_runs]
+    """Return whether the load changes within a run that is fitted, or from one of them to another.
+
+    Where only what all pads carry together is known, rocking changes nothing: it is the sum of the loads that counts.
+    """
+    loads = [run.load if objective.forces_measured else run.load.sum(axis=1) for run in objective.fitted_runs]
     means = np.array([float(np.mean(load)) for load in loads])
     within = any(float(np.std(load)) > _STEADY_LOAD * mean for load, mean in zip(loads, means, strict=True))
     return within or float(np.ptp(means)) > _STEADY_LOAD * float(means.max())
@@ -116,7 +123,8 @@ HAS: dict[str, Callable[[Objective], bool]] = {
     "across": lambda objective: "across" in objective.relations,
     "prescribed slip": lambda objective: not objective.specimen.free,
     "storeys": lambda objective: "storeys" in objective.relations,
-    "several pads": lambda objective: len(objective.pads) > 1,
+    "loads": lambda objective: objective.loads_measured,
+    "several pads": lambda objective: len(objective.pads) > 1 and objective.forces_measured,
     "both directions": lambda objective: not _one_way(objective),
     "changing load": _load_varies,
 }

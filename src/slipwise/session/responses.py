@@ -103,7 +103,7 @@ def replay_run(ready: Evaluator, state: SessionState, name: str = "") -> RunRepl
     }
     measured = {
         "peak_slip": float(np.max(np.hypot(*run.states.slip.T))),
-        "energy": float(np.sum(run.force * run.velocity[:, None]) * run.dt),
+        "energy": float(np.sum(run.force * run.velocity[:, None]) * run.dt) if run.forces_measured else float("nan"),
         "largest_load": float(np.nanmax(run.load)),
     }
     return RunReplay(run.name, answer.record, responses, measured)

@@ -57,6 +57,9 @@ def series_of(objective: Objective, state: SessionState, residuals: Residuals, p
         relation: one of `objective.relations`.
     """
     run = objective.run(place)
+    if relation == "pads" and relation not in objective.relations:  # what the law says of each pad is all there is
+        unknown, nobody = np.full_like(residuals.pad_forces[place], np.nan), tuple(0.0 for _ in run.pads)
+        return Series(relation, run.name, run.pads, "N", run.time, unknown, residuals.pad_forces[place], nobody)
     of = residuals.block(relation, place)
     part, noise = of.columns, of.noise.reshape(len(run.time), -1)
     floor = tuple(float(np.sqrt(np.mean(column**2))) for column in noise.T)

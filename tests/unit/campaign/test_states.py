@@ -83,8 +83,8 @@ def test_what_was_not_measured_is_said(made):
     assert not states.has_y and not states.has_yaw
 
 
-def test_a_run_without_slip_or_without_any_pad_has_no_states(made):
-    every = [f"pad_{pad}_{kind}" for pad in "ABCD" for kind in ("N", "Fx")]
+def test_a_run_without_slip_or_without_all_that_tells_a_load_has_no_states(made):
+    every = ["girder_ax", *(f"pad_{pad}_{kind}" for pad in "ABCD" for kind in ("N", "Fx"))]
     for names, message in ((("slip_x",), "slip_x is needed"), (every, "no pad has a load")):
         campaign = without(as_campaign(made), *names)
         with pytest.raises(InputError, match=message):

@@ -12,11 +12,11 @@ from hypotheses import table_of
 from slipwise.discovery.discover import _without_needless
 from slipwise.discovery.law_objective import LawObjective, PlacedLaw
 from slipwise.estimation.least_squares import Solution, solve, with_slopes
-from slipwise.relations.girder import pass_through_pitch
 from slipwise.relations.parameters import Free
 from slipwise.relations.setting import Weighing
 from slipwise.relations.stages import Evaluation, Memo, Stage
 from slipwise.relations.table import Residuals
+from slipwise.signals.pitch import pass_through_pitch
 
 TIME = np.arange(400) * 0.005
 FORCE = 3e3 * np.sin(2.0 * np.pi * TIME)

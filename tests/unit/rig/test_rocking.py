@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.signal import StateSpace, lsim
 
-from slipwise.relations.girder import pass_through_pitch
 from slipwise.rig import Specimen, load_specimen
 from slipwise.rig.rocking import coupled, rocking_modes, rolls
+from slipwise.signals.pitch import pass_through_pitch
 
 SIX = load_specimen("six_pads")
 

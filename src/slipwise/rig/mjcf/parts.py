@@ -17,7 +17,7 @@ ACTUATORS = ("table_ax", "table_ay", "table_az", "table_apitch")
 NUMBERS = ("pad_stiffness", "pad_damping", "plastic_pressure", "shear_strength")
 OF_EACH_PAD = ("pad_stiffness", "pad_damping", "pad_curvature")
 MORE_NUMBERS = ("pad_curvature", "bending_mass", "bending_frequency", "bending_damping")
-WORDS = ("pads_on", "stick_capacity")
+WORDS = ("pads_on", "stick_capacity", "friction")
 #: What pads and buffers are called, by the convention of names.
 _STOREY = re.compile(r"storey_[1-9][0-9]*")
 _PAD, _BUFFER = re.compile(r"pad_([A-Za-z0-9]+)"), re.compile(r"buffer_([A-Za-z0-9]+)_[xy]")

@@ -72,6 +72,7 @@ def _joints(joints: Iterable[str], more: str = "") -> list[str]:
 def _custom(specimen: Specimen) -> list[str]:
     out = [f'<text name="source {what}" data="{_escaped(words)}"/>' for what, words in specimen.sources.items()]
     out += [f'<text name="{word}" data="{getattr(specimen, word)}"/>' for word in ("pads_on", "stick_capacity")]
+    out += [] if specimen.slides else [f'<text name="friction" data="{specimen.friction}"/>']
     values: dict[str, tuple[float, ...]] = {
         "pad_stiffness": tuple(p.stiffness for p in specimen.places),
         "pad_damping": tuple(p.damping for p in specimen.places),

@@ -164,7 +164,7 @@ def fill(layout: Layout, model: Model, dt: float) -> NDArray[np.float64]:
     array[places.N_BUFFERS] = len(specimen.buffers)
     array[places.BUFFERS] = layout.buffers(len(specimen.pads))
     array[places.PLASTIC_PRESSURE] = specimen.plastic_pressure
-    array[places.SHEAR_STRENGTH] = specimen.shear_strength
+    array[places.SHEAR_STRENGTH] = specimen.shear_strength if specimen.slides else 0.0
     array[places.FULL_STICK] = specimen.stick_capacity == "full"
     pads, buffers = pad_blocks(layout, array), buffer_blocks(layout, array)
     pads[:, places.APPARENT_AREA] = specimen.pad_areas

@@ -12,6 +12,7 @@ from slipwise.channels import channel
 from slipwise.comparison.component_level import NAMES
 from slipwise.comparison.result import Comparison
 from slipwise.noise.level import AT_FLOOR, is_at_floor
+from slipwise.relations.base_shear import pair_forces
 from slipwise.relations.run_data import FitRun
 from slipwise.units import parse_unit
 from slipwise.view.figures.canvas import new_figure
@@ -116,8 +117,8 @@ def histories_figure(found: Comparison) -> Figure:
             series.append((forces[0], "sum of pad friction [kN]", total[0], total[1]))
     else:
         name = f"pad_{run.pads[0]}_Fx"
-        said = found.base.solution.residuals.pad_forces[place]
-        series = [(name, f"{name} [{shown_unit(name)}]", run.force[:, 0], said[:, 0])]
+        measured, said = pair_forces(run, found.base.solution.residuals, place)
+        series = [(name, f"{_force_name(run)} [{shown_unit(name)}]", measured[:, 0], said[:, 0])]
     with styled():
         figure = new_figure(10.0, 1.9 * len(series) + 0.6)
         rows = figure.subplots(len(series), 1, sharex=True, squeeze=False)[:, 0]
@@ -142,14 +143,18 @@ def loops_figure(found: Comparison) -> Figure:
     """Draw measured and predicted friction over slip, every pad as seen from above, and their sum."""
     place = shown_run(found)
     run = found.base.objective.run(place)
-    said = found.base.solution.residuals.pad_forces[place]
+    measured, said = pair_forces(run, found.base.solution.residuals, place)
     part = widest_loop(run)
     with styled():
-        if len(run.pads) == 1:
+        if said.shape[1] == 1:
             figure = new_figure(8.0, 5.2)
             axes = figure.add_subplot()
-            _loop(axes, run, run.force[:, 0], said[:, 0], part)
-            axes.set(title=f"Pad {run.pads[0]}", xlabel="slip x [mm]", ylabel=f"friction [{_force_unit(run)[1]}]")
+            _loop(axes, run, measured[:, 0], said[:, 0], part)
+            unit = _force_unit(measured)[1]
+            if run.forces_measured:
+                axes.set(title=f"Pad {run.pads[0]}", xlabel="slip x [mm]", ylabel=f"friction [{unit}]")
+            else:
+                axes.set(title="All bearings, from inertia", xlabel="slip x [mm]", ylabel=f"force [{unit}]")
             axes.legend(loc="lower right")
             return figure
         figure = new_figure(11.0, 5.8)
@@ -165,7 +170,7 @@ def loops_figure(found: Comparison) -> Figure:
 
 
 def _loop(axes: Axes, run: FitRun, measured: Array, said: Array, part: slice) -> None:
-    factor = _force_unit(run)[0]
+    factor = _force_unit(measured)[0]
     zero_lines(axes)
     slip = run.slip * 1e3
     axes.plot(slip, measured * factor, color="#c9d0d8", linewidth=0.6, rasterized=True)
@@ -178,8 +183,12 @@ def _factor(name: str) -> float:
     return 1.0 / parse_unit(known.shown_in, known.unit, name)
 
 
-def _force_unit(run: FitRun) -> tuple[float, str]:
-    return (1e-3, "kN") if float(np.abs(run.force).max()) > 100.0 else (1.0, "N")
+def _force_unit(force: Array) -> tuple[float, str]:
+    return (1e-3, "kN") if float(np.abs(force).max()) > 100.0 else (1.0, "N")
+
+
+def _force_name(run: FitRun) -> str:
+    return f"pad_{run.pads[0]}_Fx" if run.forces_measured else "force of all bearings"
 
 
 def widest_loop(run: FitRun) -> slice:

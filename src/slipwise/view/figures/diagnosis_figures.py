@@ -11,6 +11,7 @@ from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.ladder import Ladder, LadderStep
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.unknown_surface import ResidualSurface
+from slipwise.relations.base_shear import pair_forces
 from slipwise.residual_map.states import UNITS, WORDS
 from slipwise.units import convert
 from slipwise.view.figures.canvas import new_figure
@@ -104,7 +105,10 @@ def _change(before: LadderStep, after: LadderStep) -> str:
 
 
 def loops_figure(found: Diagnosis) -> Figure:
-    """Draw pad A's friction against slip in a held-out run: measured, base model and, if it differs, final model."""
+    """Draw one force against slip in a held-out run: measured, base model and, if it differs, final model.
+
+    It is the friction of the first pad, or what all bearings carry together where no pad's was measured.
+    """
     objective = found.search.base.objective
     place = (objective.held_out or [0])[0]
     run = objective.run(place)
@@ -113,13 +117,14 @@ def loops_figure(found: Diagnosis) -> Figure:
     figure = new_figure(8.6, 4.2)
     panels = figure.subplots(1, len(models), sharey=True, sharex=True, squeeze=False)[0]
     for axes, (label, fit, colour) in zip(panels, models, strict=True):
-        force = fit.solution.residuals.pad_forces[place][:, 0]
-        _loop(axes, run.slip, run.force[:, 0], EXPECTED, "measured", 2.2)
-        _loop(axes, run.slip, np.where(run.sliding, force, np.nan), colour, label, 0.9)
+        measured, force = (of[:, 0] for of in pair_forces(run, fit.solution.residuals, place))
+        said = np.where(run.sliding, force, np.nan) if run.forces_measured else force
+        _loop(axes, run.slip, measured, EXPECTED, "measured", 2.2)
+        _loop(axes, run.slip, said, colour, label, 0.9)
         axes.set_title(label)
         axes.set_xlabel("slip [mm]")
         axes.legend(loc="lower right", frameon=True, framealpha=0.85, edgecolor="none")  # loops fill the panel
-    panels[0].set_ylabel(f"friction of pad {run.pads[0]} [kN]")
+    panels[0].set_ylabel(f"friction of pad {run.pads[0]} [kN]" if run.forces_measured else "force of all bearings [kN]")
     return figure
 
 

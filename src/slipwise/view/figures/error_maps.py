@@ -126,9 +126,9 @@ def surface_figure(found: Comparison) -> Figure:
 
 
 def shown_relations(found: Comparison, most: int = 3) -> Sequence[str]:
-    """Return the relations whose patterns are worth a picture: those with a place above the floor, else the pads."""
+    """Return the relations whose patterns are worth a picture: those with a place above the floor, else the first."""
     worst = [p.relation for p in found.places][:most]
-    return worst or ["pads"]
+    return worst or found.relations[:1]
 
 
 def _pattern(axes: Axes, pattern: Pattern) -> None:

@@ -54,7 +54,7 @@ def friction(found: Comparison) -> Friction:
         known = of.mask.reshape(speed.shape) & np.isfinite(measured) & np.isfinite(predicted)
         pressure = run.load / objective.specimen.pad_area
         parts.append(np.stack([each[known] for each in (speed, pressure, measured, predicted)]))
-    return Friction(*np.concatenate(parts, axis=1))
+    return Friction(*(np.concatenate(parts, axis=1) if parts else np.zeros((4, 0))))
 
 
 def coefficients(run: FitRun, said: Array) -> tuple[Array, Array, Array]:

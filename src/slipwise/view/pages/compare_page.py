@@ -20,12 +20,14 @@ from slipwise.view.words.gauge_rows import gauge_rows
 def compare_page(found: Comparison) -> str:
     """Make the report of a comparison: the text of one HTML file that needs nothing else."""
     name = found.campaign.name
+    clouds = Section("Friction over load, against speed and pressure", _friction_clouds(found))
     sections = [
+        *([Section("The bearings together", _layer(found))] if found.layer else []),
         Section("How well the model does", _errors(found)),
         Section("Where it fails", _places(found)),
         Section("Histories", _histories(found)),
         Section("Loops", _loops(found)),
-        Section("Friction over load, against speed and pressure", _friction_clouds(found)),
+        *([] if found.layer else [clouds]),
         Section("Are the instruments telling the truth", _audit(found)),
         Section("Noise floor", _floor(found)),
         Section("Fitted numbers", fitted_numbers(found)),
@@ -53,6 +55,30 @@ def _summary(found: Comparison) -> list[Any]:
     )
     first = [callout("Before anything was fitted", f"{one.words}.", "warn") for one in found.corrections]
     return [verdict(title, words, tone, facts), *first, Html(f'<div style="{columns}">{boxes}</div>')]
+
+
+def _layer(found: Comparison) -> list[Any]:
+    words = (
+        "No bearing's force was measured: what all of them give together follows from the accelerations of girder and "
+        "storeys, and is known as well as the masses are. Stiffness and damping are those of the linear layer nearest "
+        "to each run; period, fraction of critical and what is left do not depend on the masses."
+    )
+    rows = [
+        {
+            "run": one.run,
+            "role": one.role,
+            "period [s]": f"{one.period:.3g}",
+            "of critical": f"{one.damping:.1%}",
+            "stiffness [kN/m]": f"{one.stiffness / 1e3:.4g}",
+            "energy [kJ]": f"{one.energy / 1e3:.3g}",
+            "slip [mm]": f"{1e3 * one.peak_slip:.3g}",
+            "force over weight": f"{one.peak_force:.1%}",
+            "left by a linear layer": f"{one.linear_left:.1%}",
+            "left by the model": f"{one.model_left:.1%}",
+        }
+        for one in found.layer
+    ]
+    return [paragraph(words), table(rows)]
 
 
 def _errors(found: Comparison) -> list[Any]:
@@ -181,8 +207,9 @@ def _histories(found: Comparison) -> list[Any]:
 
 def _loops(found: Comparison) -> list[Any]:
     run = found.base.objective.run(figures.shown_run(found))
+    of = "friction" if run.forces_measured else "force of all bearings"
     caption = (
-        f"Run {run.name} ({_role_words(run.role)}): friction over slip, measured and as the law has it at the measured "
+        f"Run {run.name} ({_role_words(run.role)}): {of} over slip, measured and as the law has it at the measured "
         "load and speed; the widest loop stands out, the rest of the run is grey."
     )
     return [figure(figures.loops_figure(found), caption, f"Friction loops of run {run.name}")]

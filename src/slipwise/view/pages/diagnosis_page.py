@@ -108,10 +108,15 @@ def _evidence(found: Diagnosis) -> Section:
                 f"{errors}{', before and after' if found.added else ''}.",
                 narrow=balances_figure(found, narrow=True),
             ),
-            figure(loops_figure(found), f"Friction of one pad against slip in {run}."),
+            figure(loops_figure(found), f"{_loop_words(found)} against slip in {run}."),
             *(paragraph(f"{run.words}.") for run in found.predicted_friction),
         ],
     )
+
+
+def _loop_words(found: Diagnosis) -> str:
+    measured = found.search.base.objective.forces_measured
+    return "Friction of one pad" if measured else "Force of all bearings, from the inertia of what they carry,"
 
 
 def _falling(ladder: Ladder) -> Section:

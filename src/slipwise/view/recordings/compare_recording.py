@@ -56,6 +56,8 @@ def _boards(found: Comparison, place: int, run: FitRun) -> list[Board]:
 
 def _pair(found: Comparison, place: int, run: FitRun) -> tuple[Record, Record]:
     """Return measured and simulated channels where both are known; a replay has no past at a window's start."""
+    if found.system is None and not run.forces_measured:
+        return run.record, run.record
     if found.system is None:
         said = found.base.solution.residuals.pad_forces[place]
         forces = {f"pad_{pad}_Fx": said[:, i] for i, pad in enumerate(run.pads)}

@@ -23,8 +23,10 @@ def headline(found: Comparison) -> tuple[str, str, Tone]:
 
 
 def one_minute(found: Comparison) -> list[tuple[str, str]]:
-    """Return the four questions that everybody asks first, with their answers."""
+    """Return the questions that everybody asks first, with their answers: of bearings without gauges what they did."""
+    layer = [("What did the bearings do together?", _layer_words(found))] if found.layer else []
     return [
+        *layer,
         ("Are the instruments telling the truth?", found.checks.words),
         ("What is the noise floor?", _floor_words(found)),
         ("How well does the model do?", _error_words(found)),
@@ -41,10 +43,11 @@ def error_rows(found: Comparison) -> list[dict[str, Any]]:
 
 
 def tones(found: Comparison) -> tuple[Tone, ...]:
-    """Return the tones of the four answers."""
+    """Return the tones of the answers."""
     tone = headline(found)[2]
     checked: Tone = "bad" if found.checks.accused else "good" if found.checks.words.startswith("Yes") else "warn"
-    return checked, "plain", tone, tone
+    first: tuple[Tone, ...] = ("plain",) if found.layer else ()
+    return *first, checked, "plain", tone, tone
 
 
 def roles(found: Comparison) -> str:
@@ -54,12 +57,25 @@ def roles(found: Comparison) -> str:
     return ", ".join(f"{roles.count(r)} {w}" for r, w in named.items() if r in roles)
 
 
+def _layer_words(found: Comparison) -> str:
+    """Say what all bearings did in the run that moved them most: held-out runs before others."""
+    held = [one for one in found.layer if one.role == "holdout"]
+    one = max(held or found.layer, key=lambda layer: layer.peak_slip)
+    return (
+        f"In {one.run}, from the inertia of what they carry: period {one.period:.3g} s, {one.damping:.1%} of critical, "
+        f"{one.energy / 1e3:.3g} kJ taken, {one.peak_force:.1%} of the weight at {1e3 * one.peak_slip:.3g} mm. The "
+        f"linear layer nearest to it leaves {one.linear_left:.1%} of the force, the model {one.model_left:.1%}."
+    )
+
+
 def _floor_words(found: Comparison) -> str:
-    row = next(r for r in found.rows("floor") if r["relation"] == "pads")
-    words = size(row["floor"], "N")
+    rows = {row["relation"]: row for row in found.rows("floor")}
+    row = rows.get("pads") or next(iter(rows.values()))
+    words = size(row["floor"], row["unit"])
     if row["near_reversals"] is not None:
-        words += f" and {size(row['near_reversals'], 'N')} near reversals"
-    words = f"On the friction of one pad {words}, from the noise of gauges and velocity"
+        words += f" and {size(row['near_reversals'], row['unit'])} near reversals"
+    of = "On the friction of one pad" if row["relation"] == "pads" else f"On the {NAMES[row['relation']][0]}"
+    words = f"{of} {words}, from the noise of gauges and velocity"
     again = row["repeated_runs"]
     if again is None:
         return words + "; no repeated run confirms it."
@@ -83,6 +99,9 @@ def _error_words(found: Comparison) -> str:
     share = [e.share for e in found.components if e.relation == "pads" and (e.role == "holdout") == held]
     if share:
         words += f". Friction of the pads errs by {max(share):.2%} of its rms"
+    layer = [one.model_left for one in found.layer if (one.role == "holdout") == held]
+    if layer:
+        words += f". The force of all bearings errs by {max(layer):.2%} of its rms"
     return words + "."
 
 
