@@ -25,8 +25,8 @@ from slipwise.campaign.level_spectra import LevelSpectra
 #: Levels, the table included, that are put in order at most: the work doubles with each.
 MOST_LEVELS = 12
 #: A storey holds where less than this is left of what it carries, the isolators where less than this is [1]: friction
-#: leaves most, yielding some.
-STOREY_LEFT, ISOLATORS_LEFT = 0.4, 0.95
+#: leaves most, yielding some. A storey that is damped by more than this share of critical is none.
+STOREY_LEFT, ISOLATORS_LEFT, _OVERDAMPED = 0.4, 0.95, 0.5
 #: A signal is turned round where that takes so much from the sum of what is left [1].
 _TURNED = 0.3
 
@@ -83,8 +83,15 @@ class LevelOrder:
     @property
     def holds(self) -> bool:
         """Whether each level answers the one below: else the signals are not those of one structure."""
-        isolators, *storeys = self.links
-        return isolators.left < ISOLATORS_LEFT and all(storey.left < STOREY_LEFT for storey in storeys)
+        return links_hold(self.links)
+
+
+def links_hold(links: Sequence[StoreyLink]) -> bool:
+    """Return whether each level answers the one below as a storey on isolators does; the isolators' link first."""
+    isolators, *storeys = links
+    return isolators.left < ISOLATORS_LEFT and all(
+        storey.left < STOREY_LEFT and storey.critical < _OVERDAMPED for storey in storeys
+    )
 
 
 def find_order(spectra: LevelSpectra, *, turn: bool = True) -> LevelOrder:
