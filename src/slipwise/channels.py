@@ -52,6 +52,7 @@ def _table() -> dict[str, Channel]:
         rows.append((f"slip_v{axis}", "m/s", "mm/s", "girder minus table at the sliding plane", axis_words[axis]))
     for axis in ("x", "y"):
         rows.append((f"storey_1_a{axis}", "m/s^2", "m/s^2", "floor of storey 1, absolute", axis_words[axis]))
+        rows.append((f"storey_1_d{axis}", "m", "mm", "floor of storey 1 minus table", axis_words[axis]))
     rows.append(("yaw", "rad", "mrad", "girder minus table", "counter-clockwise seen from above"))
     rows.append(("pitch", "rad", "mrad", "girder minus table", "about +y: nose down at +x"))
     rows.append(("roll", "rad", "mrad", "girder minus table", "about +x"))
@@ -91,7 +92,7 @@ def channels_of(pads: Iterable[str], buffers: Iterable[str]) -> dict[str, Channe
 CHANNELS: dict[str, Channel] = channels_of(PADS, BUFFERS)
 #: A channel that only serves to compute others in a campaign: "<channel>_raw".
 _RAW = re.compile(r"^(?P<name>.+)_raw$")
-_STOREY = re.compile(r"^storey_(?P<number>[1-9][0-9]*)_(?P<kind>a[xy])$")
+_STOREY = re.compile(r"^storey_(?P<number>[1-9][0-9]*)_(?P<kind>[ad][xy])$")
 _PART = re.compile(r"^(?P<part>pad|buffer)_(?P<name>[A-Za-z0-9]+)_(?P<kind>[A-Za-z]+)$")
 
 
@@ -101,7 +102,7 @@ def _known(name: str) -> Channel | None:
         return CHANNELS[name]
     if (storey := _STOREY.match(name)) is not None:
         first = CHANNELS[f"storey_1_{storey['kind']}"]
-        return replace(first, name=name, place=f"floor of storey {storey['number']}, absolute")
+        return replace(first, name=name, place=first.place.replace("storey 1", f"storey {storey['number']}"))
     match = _PART.match(name)
     if not match:
         return None

@@ -65,12 +65,13 @@ def load_campaign(folder: Path | str) -> Campaign:
         raise InputError(f"{folder}: no such folder; a campaign is a folder with campaign.toml and data files")
     settings = read_settings(folder / "campaign.toml")
     specimen = better_known(load_specimen(settings.rig, folder), settings.specimen, "campaign.toml")
-    files: dict[str, _File] = {}
+    files: dict[tuple[str, tuple[ColumnMap, ...]], _File] = {}
     runs: list[Run] = []
     for run in settings.runs:
-        if run.file not in files:
-            files[run.file] = _read_file(folder / run.file, settings, specimen)
-        runs.append(_run(run, files[run.file], settings))
+        key = run.file, run.columns
+        if key not in files:
+            files[key] = _read_file(folder / run.file, settings, settings.columns_of(run), specimen)
+        runs.append(_run(run, files[key], settings))
     _check_names(runs)
     notes = [*dict.fromkeys(note for file in files.values() for note in file.notes), *check_untouched(runs)]
     notes += _outside(folder, settings)
@@ -111,9 +112,9 @@ def as_campaign(given: Campaign | Path | str) -> Campaign:
     return load_campaign(given)
 
 
-def _read_file(path: Path, settings: Settings, specimen: Specimen) -> _File:
+def _read_file(path: Path, settings: Settings, columns: Sequence[ColumnMap], specimen: Specimen) -> _File:
     table = open_table(path)
-    chosen, notes = _choose(table, settings.columns, specimen)
+    chosen, notes = _choose(table, columns, specimen)
     read = table.columns([i for i, _ in chosen])
     time: Array | None = None
     channels: dict[str, Array] = {}

@@ -19,7 +19,7 @@ _TOP = (
     *("name", "rig", "description", "sample_rate", "specimen", "columns", "constants", "derived", "logger"),
     *("materiality", "run"),
 )
-_RUN = ("file", "role", "window", "rest_before", "description")
+_RUN = ("file", "role", "window", "rest_before", "description", "columns")
 _COLUMN = ("channel", "unit", "sign")
 _LOWPASS = ("lowpass", "order", "phase")
 
@@ -43,12 +43,13 @@ class ColumnMap:
 
 @dataclass(frozen=True)
 class RunSettings:
-    """One [[run]]; times in [s]."""
+    """One [[run]]; times in [s]; columns are those that mean something else in its file than [columns] says."""
 
     file: str
     role: str
     window: tuple[float, float] | None
     rest_before: float | None
+    columns: tuple[ColumnMap, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -65,6 +66,16 @@ class Settings:
     materiality: Materiality
     runs: tuple[RunSettings, ...]
     sample_rate: float | None = None
+
+    def columns_of(self, run: RunSettings) -> tuple[ColumnMap, ...]:
+        """Return what the columns of a run's file are: its own lines take the place of those of [columns].
+
+        A line of [columns] with the same header or the same channel as one of the run's own does not count for it.
+        """
+        headers = {" ".join(own.header.split()) for own in run.columns}
+        channels = {own.channel for own in run.columns}
+        others = [c for c in self.columns if " ".join(c.header.split()) not in headers and c.channel not in channels]
+        return (*others, *run.columns)
 
 
 def read_settings(path: Path) -> Settings:
@@ -223,4 +234,6 @@ def _run(content: Any, where: str) -> RunSettings:
     rest = quantity(part["rest_before"], "s", f"{where}, 'rest_before'") if "rest_before" in part else None
     if rest is not None and rest < 0.0:
         raise SettingError(f"{where}: rest_before = {rest:g} s cannot be below zero")
-    return RunSettings(_text(part["file"], "file", where), role, window, rest)
+    own = _table(part.get("columns", {}), f"[run.columns] of {where}")
+    columns = tuple(_column(h, c, f"[run.columns] of {where}") for h, c in own.items())
+    return RunSettings(_text(part["file"], "file", where), role, window, rest, columns)

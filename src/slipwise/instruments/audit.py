@@ -14,11 +14,14 @@ from slipwise.effects import Effect, catalogue
 from slipwise.effects._gauges import span
 from slipwise.instruments.acceptance import Evidence
 from slipwise.instruments.delay_or_filter import passed
+from slipwise.instruments.displacement_checks import check_displacements
 from slipwise.instruments.fault_selection import select_faults
 from slipwise.instruments.joint_fit import KNOWN_MASS, RATED_MASS, Case, JointFit, start
+from slipwise.instruments.level_checks import contradicted_levels, silent_levels, storey_answers
 from slipwise.instruments.report import AuditFinding, AuditReport, Balance
 from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
 from slipwise.instruments.suspects import Suspect, effect_of
+from slipwise.preparation.level_faults import read_levels
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
 from slipwise.preparation.rounding import is_coarse
@@ -61,13 +64,34 @@ def audit(campaign: Campaign | Path | str | Prepared, own: Iterable[Effect] = ()
     runs, band = prepare_runs(clean, prepared.balances.left_out)
     allowed, cannot = list_rigid_balances(runs[0].record, rig)
     step = float(np.median([run.record.dt for run in clean.runs]))
-    noise = draw_run_noise(runs, clean.gauges, step, band)
     mass_error = KNOWN_MASS if "mass" in campaign.known else RATED_MASS
     logger = prepared.logger
     findings = [_of_samples(fault) for fault in prepared.faults]
     notes = [*wild_samples(campaign.runs), *_rounded(campaign)]
     notes += [one.words for one in prepared.corrections if one.kind == "wrong_rig"]
-    plain = AuditReport(campaign.name, tuple(findings), (), (), {}, logger, tuple(cannot), tuple(notes))
+    levels = read_levels(clean)
+    reordered = {one.run for one in levels if one.order != one.levels}
+    displacements = check_displacements([run for run in clean.runs if run.name not in reordered], rig)
+    notes += displacements.notes
+    cannot += silent_levels(levels)
+    plain = AuditReport(
+        campaign.name,
+        tuple(findings),
+        balances=(),
+        physics=(),
+        constants={},
+        logger=logger,
+        cannot=tuple(cannot),
+        notes=tuple(notes),
+        contradictions=(*contradicted_levels(levels), *displacements.contradictions),
+        levels=storey_answers(levels),
+    )
+    # a column that holds something else than said is held against nothing more
+    allowed = [relation for relation in allowed if not set(relation.needs) & set(displacements.elsewhere)]
+    in_order = [run for run in runs if run.name not in reordered]
+    if not in_order:
+        return plain
+    runs, noise = in_order, draw_run_noise(in_order, clean.gauges, step, band)
     if not any(relation.accuses and relation.rows in ("moving", "inner") for relation in allowed):
         return plain
     if not stack_rows(runs, allowed, rig, dict.fromkeys(list_constants(allowed), 0.0)).residual:
@@ -136,7 +160,7 @@ def _of_samples(fault: SampleFault) -> AuditFinding:
         "dead": f"{place} is dead in {', '.join(fault.runs)}",
         "lost": f"{place} has lost samples: what follows them came early, and the end repeats one value",
         "shifted": ShiftedZero(fault.channels, fault.size).words,
-        "late": f"the cells of the pads come {fault.size:.3f} s late: their logger was started later",
+        "late": _late_words(fault),
         "gap": f"the logger has lost {fault.size:.2%} of all samples",
     }.get(fault.kind, sentence(effect, place, size, unit))
     if fault.kind in RAILS:
@@ -163,6 +187,14 @@ def _of_samples(fault: SampleFault) -> AuditFinding:
         runs=fault.runs,
         of_samples=fault,
     )
+
+
+def _late_words(fault: SampleFault) -> str:
+    if all(name.startswith("pad_") for name in fault.channels):
+        return f"the cells of the pads come {fault.size:.3f} s late: their logger was started later"
+    if len(fault.channels) == 1:
+        return sentence(effect_of("late"), fault.channels[0], fault.size, "s")
+    return f"{', '.join(fault.channels)} come {fault.size:.3f} s late: their logger was started later"
 
 
 def _place(channels: tuple[str, ...]) -> str:

@@ -36,8 +36,8 @@ class Checks(Drawn, Tabular):
 
     @property
     def accused(self) -> bool:
-        """Whether a gauge is accused."""
-        return bool(self.report.findings)
+        """Whether a gauge is accused, or what campaign.toml says of a column is contradicted."""
+        return bool(self.report.findings or self.report.contradictions)
 
     @property
     def rows(self) -> list[Mapping[str, Any]]:
@@ -65,6 +65,8 @@ class Checks(Drawn, Tabular):
             "findings": self.report.rows(),
             "cannot": list(self.cannot),
             "notes": list(self.notes),
+            "contradictions": list(self.report.contradictions),
+            "levels": [one.as_json() for one in self.report.levels],
         }
 
     def _headline(self) -> str:
@@ -88,10 +90,12 @@ def check_instruments(campaign: Campaign | Path | str | Prepared, *, own: Iterab
     began = time.perf_counter()
     report = audit(campaign, own)
     tested = [b for b in report.balances if not b.relation.startswith("rest_")]
-    if report.findings:
-        words = f"No: {'; '.join(f.words for f in report.findings)}. No law of friction was needed to see it."
-    elif tested:
-        words = f"Yes: {len(tested)} balances and kinematic relations agree, no gauge is accused."
+    count = len(tested) + len({(one.level, one.below) for one in report.levels})
+    if report.findings or report.contradictions:
+        wrong = "; ".join([*(f.words for f in report.findings), *report.contradictions])
+        words = f"No: {wrong}. No law of friction was needed to see it."
+    elif count:
+        words = f"Yes: {count} balances and kinematic relations agree, no gauge is accused."
     elif NOTHING_MAPPED in report.cannot:
         words = f"Not known: {NOTHING_MAPPED}."
     else:

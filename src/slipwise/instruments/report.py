@@ -6,6 +6,7 @@ from typing import Any
 
 from slipwise.display import Drawn, Tabular
 from slipwise.effects import Effect
+from slipwise.instruments.level_checks import StoreyAnswer
 from slipwise.preparation.logger import LoggerEstimate
 from slipwise.preparation.sample_fault import SampleFault
 
@@ -89,6 +90,8 @@ class AuditReport(Drawn, Tabular):
         logger: estimate of the filter; None where campaign.toml describes the logger.
         cannot: what could not be tested, and why.
         notes: small things that matter to nobody but should be known.
+        contradictions: what campaign.toml says of columns and the motions contradict, and what to write instead.
+        levels: how each level of a structure answers the one below.
     """
 
     campaign: str
@@ -99,6 +102,8 @@ class AuditReport(Drawn, Tabular):
     logger: LoggerEstimate | None
     cannot: tuple[str, ...]
     notes: tuple[str, ...] = field(default=())
+    contradictions: tuple[str, ...] = field(default=())
+    levels: tuple[StoreyAnswer, ...] = field(default=())
 
     def rows(self) -> list[dict[str, Any]]:
         """Return the findings as rows of a table."""
@@ -119,7 +124,7 @@ class AuditReport(Drawn, Tabular):
         ]
 
     def _headline(self) -> str:
-        found = "; ".join(f.words for f in self.findings) or "no gauge is accused"
+        found = "; ".join([*(f.words for f in self.findings), *self.contradictions]) or "no gauge is accused"
         return f"{self.campaign}: {found}"
 
     def _rows(self) -> list[dict[str, Any]]:

@@ -12,7 +12,7 @@ from slipwise.channels import channel, pads_in, part_of
 from slipwise.effects import Effect, catalogue
 from slipwise.effects._fault import GaugeFault
 from slipwise.effects._gauges import span
-from slipwise.preparation.gauge_groups import find_places_of_gauges
+from slipwise.preparation.gauge_groups import find_floors_of_gauges, find_places_of_gauges
 from slipwise.record import Record
 from slipwise.rig import Specimen
 from slipwise.rig.load_basis import RIGID_MODES
@@ -98,7 +98,8 @@ def suspects(record: Record, specimen: Specimen, effects: Iterable[Effect]) -> l
 
 def _of_effect(effect: Effect, record: Record, load: float) -> Iterator[Suspect]:
     pads = pads_in(record.channels)
-    for place, channels in find_places_of_gauges(effect, record).items():
+    places = {**find_places_of_gauges(effect, record), **find_floors_of_gauges(effect, record)}
+    for place, channels in places.items():
         if "*" in place and len(channels) < max(len(pads), RIGID_MODES):
             continue  # no balance holds part of a card
         if effect.gauges.sits == "pads":

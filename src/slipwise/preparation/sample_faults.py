@@ -1,7 +1,7 @@
 """What samples show by themselves: wrong signs, dead channels, rails, samples that repeat, samples that are lost."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
@@ -9,6 +9,7 @@ from slipwise.arrays import Array, Mask
 from slipwise.campaign import Campaign, Run
 from slipwise.campaign.wild_samples_of_runs import FAULTY, faulty_share
 from slipwise.channels import pads_in
+from slipwise.preparation.level_faults import agreed_late, agreed_turned, dead_in, read_levels, turned_displacements
 from slipwise.preparation.outliers import bridge_outliers
 from slipwise.preparation.put_right import put_right
 from slipwise.preparation.rounding import NEAR, estimate_chance_of_equal, is_coarse
@@ -51,8 +52,15 @@ def find_sample_faults(campaign: Campaign) -> list[SampleFault]:
     steady = put_right(steady, late)
     scaled = _scaled(steady)
     steady = put_right(steady, scaled)
-    bad = _bad_samples(put_right(campaign, late + scaled))
-    return [*_gaps(campaign), *_join([*_turned(steady), *_shifted(steady), *scaled, *late, *bad])]
+    turned = _turned(steady)
+    levels = read_levels(put_right(steady, turned))
+    every = tuple(run.name for run in campaign.runs)
+    turned += [SampleFault("turned", (name,), -1.0, {}, every) for name in agreed_turned(levels)]
+    backwards = turned_displacements(put_right(steady, turned))
+    turned += [SampleFault("turned", (name,), -1.0, {}, every) for name in backwards]
+    late += [SampleFault("late", (name,), delay, {}, every) for name, delay in agreed_late(levels).items()]
+    bad = _bad_samples(put_right(campaign, late + scaled), dead_in(levels))
+    return [*_gaps(campaign), *_join([*turned, *_shifted(steady), *scaled, *late, *bad])]
 
 
 def _late(campaign: Campaign, found: LateChannels | None) -> list[SampleFault]:
@@ -81,8 +89,13 @@ def _shifted(campaign: Campaign) -> list[SampleFault]:
     return [SampleFault("shifted", zero.channels, zero.size, {}, every) for zero in find_shifted_zeros(campaign)]
 
 
-def _bad_samples(campaign: Campaign) -> list[SampleFault]:
-    """Channels that are dead or wild, and samples at a rail, repeated or lost; of a dead channel nothing else."""
+def _bad_samples(campaign: Campaign, idle: Mapping[str, Collection[str]]) -> list[SampleFault]:
+    """Channels that are dead or wild, and samples at a rail, repeated or lost; of a dead channel nothing else.
+
+    Args:
+        campaign: whose samples are looked at.
+        idle: channel -> names of runs in which it shows nothing beside its like.
+    """
     found: list[SampleFault] = []
     names = list(dict.fromkeys(name for run in campaign.runs for name in run.record.channels))
     # what every channel repeats at its end is a record that was cut, no gauge's loss
@@ -91,7 +104,7 @@ def _bad_samples(campaign: Campaign) -> list[SampleFault]:
     }
     for name in names:
         runs = [run for run in campaign.runs if name in run.record]
-        fault = _wild(name, runs) or _dead(name, runs, campaign.specimen)
+        fault = _wild(name, runs) or _dead(name, runs, campaign.specimen, idle.get(name, ()))
         if fault is not None:
             found.append(fault)
             continue
@@ -111,13 +124,13 @@ def _wild(name: str, runs: Sequence[Run]) -> SampleFault | None:
     return SampleFault("wild", (name,), share, bad, tuple(bad))
 
 
-def _dead(name: str, runs: Sequence[Run], specimen: Specimen) -> SampleFault | None:
+def _dead(name: str, runs: Sequence[Run], specimen: Specimen, idle: Collection[str]) -> SampleFault | None:
     """A channel that never moves while others do; a constant of campaign.toml does not move in any run.
 
     The cell of a pad may be dead and noisy: it hardly scatters where the other cells of its kind move.
     """
     constant = {run.name for run in runs if np.ptp(run.record[name]) == 0.0}
-    still = set() if len(constant) == len(runs) else constant
+    still = set(idle) if len(constant) == len(runs) else constant | set(idle)
     still |= {run.name for run in runs if _idle_beside_its_like(name, run, specimen)}
     if not still:
         return None

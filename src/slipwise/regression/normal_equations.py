@@ -71,5 +71,5 @@ def invert_regularised(squares: Array) -> Array:
     norm = np.sqrt(np.diag(squares))
     norm[norm == 0.0] = 1.0
     values, vectors = np.linalg.eigh(squares / np.outer(norm, norm))
-    kept = values > 1e-11 * max(float(values[-1]), 1e-300)
+    kept = values > 1e-11 * float(values.max(initial=1e-300))
     return ((vectors[:, kept] / values[kept]) @ vectors[:, kept].T) / np.outer(norm, norm)

@@ -104,7 +104,7 @@ def _prepared(run: Run, aligned: AlignedRun, band: float, left_out: Mask) -> Pre
 
 
 def _moves(channel: str) -> bool:
-    return channel.startswith(("slip_", "girder_a", "table_a"))
+    return channel.startswith(("slip_", "girder_a", "table_a", "storey_"))
 
 
 def _on(time: Array, recorded: Array, mask: Mask) -> Mask:

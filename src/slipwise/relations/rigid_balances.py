@@ -9,6 +9,7 @@ Every relation is a residual that is zero for true channels, linear in a few con
                and of each a share of the other's second derivative where the pads stand unevenly
     warp       what is left of the loads: nothing of three pads, N_A - N_B - N_C + N_D of four; warp_2 ... of more
     along      x - double integral of (a_x - table a_x), both without what is slower than 0.8 Hz      (across alike)
+    storey_1_along   the same of a floor's displacement and acceleration, and so on                   (across alike)
     upright    a_z - table a_z + c1 (sum N)'' + c2 (sum N)', and on curved sliders - (rise of their faces)''
     rest_*     an acceleration, or the slip's wandering, while nothing moves
     pair_*     F_A - F_C ..., pads that stand beside each other and carry like loads at like speed
@@ -84,14 +85,20 @@ def list_rigid_balances(record: Record, specimen: Specimen) -> tuple[list[Relati
             _upright(record, specimen),
         ]
         for axis in ("x", "y"):
-            possible += [_girder(axis, specimen), _tilting(axis, record, specimen), _kinematic(axis, loads)]
+            possible += [_girder(axis, specimen), _tilting(axis, record, specimen), _kinematic(axis, record, loads)]
+            possible += [_floor(axis, storey) for storey in storey_names(specimen.storeys)]
             possible += _pairs(axis, specimen)
     kept = [relation for relation in possible if record.has_all(*relation.needs)]
+    missing = {r.name: [n for n in r.needs if n not in record] for r in possible if r not in kept}
+    forceless = not any(name.startswith("pad_") for name in record.channels)
+    of_pads = [name for name, needed in missing.items() if forceless and any(n.startswith("pad_") for n in needed)]
     cannot = [
-        f"{relation.name}: channel missing, cannot test ({', '.join(n for n in relation.needs if n not in record)})"
-        for relation in possible
-        if not record.has_all(*relation.needs) and not relation.name.endswith("_y")
+        f"{name}: channel missing, cannot test ({', '.join(needed)})"
+        for name, needed in missing.items()
+        if name not in of_pads and not name.endswith(("_y", "_along", "_across"))
     ]
+    if of_pads and specimen.free:
+        cannot.append(f"{', '.join(n for n in of_pads if n[-2:] != '_y')}: no load and no friction of a pad was measured")
     if not specimen.free:
         cannot.append("balances: the slip is prescribed, no girder ties forces to accelerations")
     return kept, cannot
@@ -192,16 +199,32 @@ def without_slow(values: Array, dt: float, integrations: int) -> Array:
     return in_frequency(values, dt, gain, int(2.0 / (SLOWEST * dt)))
 
 
-def _kinematic(axis: str, loads: tuple[str, ...]) -> Relation:
+def _kinematic(axis: str, record: Record, loads: tuple[str, ...]) -> Relation:
+    """Slip against accelerations; where the girder leans the loads say so, or without any load its own inertia."""
+
     def known(r: Record, s: Specimen) -> Array:
         relative = r[f"girder_a{axis}"] - r[f"table_a{axis}"]
         return without_slow(r[f"slip_{axis}"], r.dt, 0) - without_slow(relative, r.dt, 2)
 
     terms: dict[str, Term] = {}
-    if axis == "x":
+    weighed = any(name in record for name in loads)
+    if axis == "x" and weighed:
         terms["lean"] = lambda r, s: without_slow(_modes(r, s).pitch, r.dt, 0)
-    needs = (f"girder_a{axis}", f"table_a{axis}", f"slip_{axis}", *(loads if axis == "x" else ()))
+    elif axis == "x":
+        terms["lean"] = lambda r, s: without_slow(r[f"girder_a{axis}"], r.dt, 0)
+    needs = (f"girder_a{axis}", f"table_a{axis}", f"slip_{axis}", *(loads if axis == "x" and weighed else ()))
     return Relation("along" if axis == "x" else "across", needs, known, terms, rows="inner")
+
+
+def _floor(axis: str, storey: str) -> Relation:
+    """A floor's displacement against its acceleration, both from the table."""
+
+    def known(r: Record, s: Specimen) -> Array:
+        relative = r[f"{storey}_a{axis}"] - r[f"table_a{axis}"]
+        return without_slow(r[f"{storey}_d{axis}"], r.dt, 0) - without_slow(relative, r.dt, 2)
+
+    needs = (f"{storey}_a{axis}", f"table_a{axis}", f"{storey}_d{axis}")
+    return Relation(f"{storey}_{'along' if axis == 'x' else 'across'}", needs, known, {}, rows="inner")
 
 
 def _upright(record: Record, specimen: Specimen) -> Relation:

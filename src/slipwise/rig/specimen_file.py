@@ -218,7 +218,10 @@ def _storeys(content: Mapping[str, Any], where: str) -> tuple[Storey, ...]:
         _both_ways(values, "damping")
         for needed in ("mass", "z", "stiffness_x", "stiffness_y"):
             if needed not in values:
-                raise InputError(f"{here} lacks {needed}; a storey has mass, z and stiffness, or stiffness_x and _y")
+                unknown = "; motions tell no mass: where no drawing does, write that of the girder" if needed == "mass" else ""
+                raise InputError(
+                    f"{here} lacks {needed}; a storey has mass, z and stiffness, or stiffness_x and _y{unknown}"
+                )
         for axis in "xy":
             alone = 2.0 * _OF_A_STOREY * (abs(values["mass"] * values[f"stiffness_{axis}"])) ** 0.5
             values.setdefault(f"damping_{axis}", alone)

@@ -12,8 +12,9 @@ import numpy as np
 from slipwise.arrays import Array
 from slipwise.campaign.draft.channel_mapping import map_columns
 from slipwise.campaign.draft.column import Mapped
-from slipwise.campaign.draft.column_lines import column_lines, quoted
+from slipwise.campaign.draft.column_lines import column_lines, own_column_lines, quoted
 from slipwise.campaign.draft.data_files import DataFile, open_data_files
+from slipwise.campaign.draft.levels import MappedLevels, map_levels
 from slipwise.campaign.draft.rig import rig_for
 from slipwise.campaign.draft.roles import is_sine, record_of, roles_of
 from slipwise.campaign.draft.time_column import no_time
@@ -66,13 +67,15 @@ def draft_campaign(folder: Path, ask: Ask | None = None) -> tuple[str, str]:
     if not files:
         why = f" can be read: {'; '.join(passed)}" if passed else ""
         raise InputError(f"{folder}: no data file in it{why}; possible: {', '.join(SUFFIXES)}")
-    mapped = _mapped(files)
-    records = {file.path.name: _recognised(file, mapped) for file in files}
+    levels = map_levels(sorted(files, key=_liveliness, reverse=True))
+    mapped = _mapped(files, levels)
+    of_file = {file.path.name: {**mapped, **levels.own.get(file.path.name, {})} for file in files}
+    records = {file.path.name: _recognised(file, of_file[file.path.name]) for file in files}
     ours = list(dict.fromkeys(name for file in files for name in file.known))
-    lines = column_lines(files, ours, mapped)
+    lines = [*column_lines(files, ours, mapped, levels.left), *_derived(mapped)]
     named = [*ours, *re.findall(r'channel = "(\w+)", unit', "\n".join(line for line in lines if line[:1] != "#"))]
     known = [record for record in records.values() if record is not None]
-    guess, why, specimen = rig_for(known, pads_in(named), folder)
+    guess, why, specimen = rig_for(known, pads_in(named), folder, levels.order)
     possible = "a name of `slipwise rigs`, a specimen.toml or an MJCF file"
     rig = guess if ask is None else ask(f"Which rig ({possible})?", guess)
     head = [
@@ -93,6 +96,8 @@ def draft_campaign(folder: Path, ask: Ask | None = None) -> tuple[str, str]:
         if lacking:
             others = f"{file.path.name} has no column {', '.join(lacking)}"
             notes.append(f"# note: {others}: name its columns as in the other files, or give it a folder of its own")
+    for name in levels.own:
+        notes.append(f"# note: {name} has its levels in another order than the other files: it has columns of its own")
     untimed = [file for file in files if not _timed(file, mapped)]
     if untimed:
         notes.append(f"# note: {untimed[0].path.name} shows no time: {no_time(untimed[0].columns)}")
@@ -100,9 +105,9 @@ def draft_campaign(folder: Path, ask: Ask | None = None) -> tuple[str, str]:
     head[2:2] = notes
     if rig != "pad":
         head += _logger(ask)
-    if not any(part_of(n)[0] == "pad" and n.endswith(("_N", "_P")) for n in named):
+    if levels.order is None and not any(part_of(n)[0] == "pad" and n.endswith(("_N", "_P")) for n in named):
         lines += ["# [constants]             # decide: no column holds a pad's load", '# pad_A_N = "10 kN"', ""]
-    return "\n".join([*head, *lines, *_runs(records)]) + "\n", specimen if rig == guess else ""
+    return "\n".join([*head, *lines, *_runs(records, levels.own)]) + "\n", specimen if rig == guess else ""
 
 
 def _logger(ask: Ask | None) -> list[str]:
@@ -112,12 +117,12 @@ def _logger(ask: Ask | None) -> list[str]:
     return ["# [logger]                # decide: what the logger did to the channels", '# lowpass = "100 Hz"', ""]
 
 
-def _mapped(files: Sequence[DataFile]) -> dict[str, Mapped]:
+def _mapped(files: Sequence[DataFile], levels: MappedLevels) -> dict[str, Mapped]:
     """Recognise columns in the file that moves most; headers mean the same in all files."""
-    out: dict[str, Mapped] = {}
+    out: dict[str, Mapped] = dict(levels.common)
     for file in sorted(files, key=_liveliness, reverse=True):
         taken = {m.channel for m in out.values()}
-        fresh = [c for c in file.columns if c.header not in out]
+        fresh = [c for c in file.columns if c.header not in out and c.header not in levels.left]
         known = {m.channel: m.sign * c.values for c in file.columns if (m := out.get(c.header)) is not None}
         found = map_columns(fresh, {**file.known, **known}, file.step)
         out |= {header: m for header, m in found.items() if m.channel not in taken}
@@ -149,7 +154,13 @@ def _recognised(file: DataFile, mapped: Mapping[str, Mapped]) -> Record | None:
     return record_of(_channels(file, mapped), file.path)
 
 
-def _runs(records: Mapping[str, Record | None]) -> list[str]:
+def _derived(mapped: Mapping[str, Mapped]) -> list[str]:
+    """Return [derived]: displacements with another reference than their channel's."""
+    lines = [f"{m.channel.removesuffix('_raw')} = {quoted(m.derived)}" for m in mapped.values() if m.derived]
+    return ["[derived]   # decide: displacements that were measured from elsewhere", *sorted(lines), ""] if lines else []
+
+
+def _runs(records: Mapping[str, Record | None], own: Mapping[str, Mapping[str, Mapped]]) -> list[str]:
     lines = []
     for name, (role, why) in roles_of(records).items():
         reason = f" ({why})" if why else ""
@@ -158,6 +169,7 @@ def _runs(records: Mapping[str, Record | None]) -> list[str]:
             f"file = {quoted(name)}",
             f"role = {quoted(role)}   # decide: fit, repeat (same motion again) or holdout{reason}",
             '# rest_before = "30 min"   # decide: the pause before this run',
+            *own_column_lines(own.get(name, {})),
             "",
         ]
     return lines

@@ -43,13 +43,23 @@ class Column:
 
 @dataclass(frozen=True)
 class Mapped:
-    """A column that was recognised: its channel, its unit, its sign, why, and how sure that is."""
+    """A column that was recognised.
+
+    Attributes:
+        channel: that it holds; with "_raw" behind it where another one is computed from it.
+        unit: as written.
+        sign: +1 or -1.
+        why: on what that rests.
+        sure: "sure", "likely" or "guess".
+        derived: expression that gives the channel without "_raw"; "" where the column is the channel.
+    """
 
     channel: str
     unit: str
     sign: int
     why: str
     sure: str
+    derived: str = ""
 
 
 def column_of(header: str, values: Array) -> Column:

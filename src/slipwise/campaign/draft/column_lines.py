@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
+from itertools import starmap
 
 import numpy as np
 
@@ -33,22 +34,28 @@ _BY_NAME: tuple[tuple[str, str], ...] = (
 _ACROSS = "a displacement across the sliding plane"
 
 
-def column_lines(files: Sequence[DataFile], ours: Sequence[str], mapped: Mapping[str, Mapped]) -> list[str]:
-    """Return [columns]: lines for what was recognised, or whose words and unit fit a channel, comments for the rest."""
+def column_lines(
+    files: Sequence[DataFile], ours: Sequence[str], mapped: Mapping[str, Mapped], left: Mapping[str, str]
+) -> list[str]:
+    """Return [columns]: lines for what was recognised, or whose words and unit fit a channel, comments for the rest.
+
+    Args:
+        files: of the folder.
+        ours: channels that files name as we do.
+        mapped: header -> channel.
+        left: header -> why the numbers of a column show that it is no channel.
+    """
     headers = list(dict.fromkeys(h for file in files for h in file.headers if not is_ours(h) and h))
     if not headers:
         return []
     looked = {column.header: column for file in reversed(files) for column in file.columns}
-    unread = {header: why for file in reversed(files) for header, why in file.unread.items()}
+    unread = {**left, **{header: why for file in reversed(files) for header, why in file.unread.items()}}
     gaps = {header: why for file in reversed(files) for header, why in file.gaps.items()}
     lines, taken = ["[columns]"], {name: name for name in ours} | {m.channel: h for h, m in mapped.items()}
     level = any(c.kind == "length" and not c.no_channel and "up" not in c.meanings for c in looked.values())
     for header in headers:
         if header in mapped:
-            m = mapped[header]
-            sign = ", sign = -1" if m.sign < 0 else ""
-            entry = f"{{ channel = {quoted(m.channel)}, unit = {quoted(m.unit)}{sign} }}"
-            lines.append(f"{quoted(header)} = {entry}   # decide: {m.sure}: {one_line(m.why)}")
+            lines.append(_line(header, mapped[header]))
             continue
         column = looked.get(header) or column_of(header, np.zeros(0))
         guess, unit = _guess(column), "1" if column.kind == "coefficient" else column.unit
@@ -71,6 +78,19 @@ def column_lines(files: Sequence[DataFile], ours: Sequence[str], mapped: Mapping
             entry = f'{{ channel = "...", unit = {quoted("..." if unit == "?" else unit)} }}'
             lines.append(f"# {quoted(header)} = {entry}   # decide: not used: {one_line(why)}")
     return [*lines, ""]
+
+
+def own_column_lines(mapped: Mapping[str, Mapped]) -> list[str]:
+    """Return [run.columns]: the columns of a run whose file holds them in another order than the others."""
+    if not mapped:
+        return []
+    return ["[run.columns]   # decide: in this file the levels stand in another order", *starmap(_line, mapped.items())]
+
+
+def _line(header: str, mapped: Mapped) -> str:
+    sign = ", sign = -1" if mapped.sign < 0 else ""
+    entry = f"{{ channel = {quoted(mapped.channel)}, unit = {quoted(mapped.unit)}{sign} }}"
+    return f"{quoted(header)} = {entry}   # decide: {mapped.sure}: {one_line(mapped.why)}"
 
 
 def _guess(column: Column) -> str:

@@ -6,6 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from slipwise.campaign.draft.roles import rig_of
+from slipwise.campaign.draft.structure import structure_draft
+from slipwise.campaign.level_order import LevelOrder
 from slipwise.campaign.zero_state import GRAVITY
 from slipwise.record import Record
 from slipwise.rig import RIGS, load_specimen
@@ -19,16 +21,22 @@ MOST_DRAFTED = 12
 _SOME_MASS = 10e3
 
 
-def rig_for(records: Sequence[Record], pads: tuple[str, ...], folder: Path) -> tuple[str, str, str]:
+def rig_for(
+    records: Sequence[Record], pads: tuple[str, ...], folder: Path, levels: LevelOrder | None
+) -> tuple[str, str, str]:
     """Return the rig of a campaign, why, and the text of a specimen.toml that must be written for it, or "".
 
     Args:
         records: of its files, as far as their channels are known.
         pads: that the files have channels of.
         folder: of the files; a specimen.toml in it is their rig.
+        levels: of a structure without force gauges; None where the files show none.
     """
     if (folder / SPECIMEN_FILE).is_file():
         return SPECIMEN_FILE, "it lies in this folder", ""
+    if levels is not None:
+        why = "a structure whose accelerations alone were measured: it was drafted beside this file, fill it in"
+        return SPECIMEN_FILE, why, structure_draft(levels)
     if len(pads) < 3:
         return "pad", "not enough pads for a girder", ""
     weights = {name: rig.weight for name in RIGS if (rig := load_specimen(name)).free and rig.pads == pads}
