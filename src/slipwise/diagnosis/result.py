@@ -23,7 +23,6 @@ from slipwise.noise.level import is_at_floor
 from slipwise.preparation.data_corrections import BEFORE_BALANCES, DataCorrection
 from slipwise.record import Record
 from slipwise.selection.explained_alone import ExplainedAlone
-from slipwise.selection.hypothesis import Hypothesis
 from slipwise.selection.importance import Importance
 from slipwise.selection.power import TWINS, EffectPower, compute_power
 from slipwise.selection.search_state import Search
@@ -165,7 +164,7 @@ class Diagnosis(Drawn, Tabular):
         Raises:
             UnknownNameError: an effect that this campaign does not know.
         """
-        found = tuple(explain_why_not(self.search, self.verdict.effects, n, self._reference) for n in names)
+        found = tuple(explain_why_not(self.search, self.verdict.effects, n) for n in names)
         return replace(self, why_not=(*self.why_not, *found))
 
     def explain_rivals(self, most: int = 2) -> list[WhyNot]:
@@ -175,11 +174,6 @@ class Diagnosis(Drawn, Tabular):
             most: rivals at most.
         """
         return explain_rivals(self.search, self.verdict.effects, most) if self.added else []
-
-    @property
-    def _reference(self) -> Hypothesis:
-        """The model with what was named; the base model where nothing was."""
-        return self.search.final if self.added else self.search.path[0]
 
     def ladder(self) -> Ladder:
         """Return the ladder that the diagnosis has climbed already."""

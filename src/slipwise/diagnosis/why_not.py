@@ -16,6 +16,7 @@ from slipwise.comparison.cells import correct_for_many_tests, gather, judge_cell
 from slipwise.comparison.component_level import NAMES
 from slipwise.comparison.motion_states import STATES, classify_motion_states
 from slipwise.comparison.sentences import describe_places
+from slipwise.diagnosis.indistinguishable import list_known_effects
 from slipwise.errors import SlipwiseError, unknown_name
 from slipwise.estimation.objective import Objective
 from slipwise.evidence.residual_summary import get_error
@@ -24,7 +25,7 @@ from slipwise.relations.parameters import Term
 from slipwise.relations.table import Block
 from slipwise.selection.candidates import at_odds
 from slipwise.selection.columns import OF_MODEL
-from slipwise.selection.hypothesis import Hypothesis, polish, refit, weigh_as
+from slipwise.selection.hypothesis import Hypothesis, polish, refit
 from slipwise.selection.hypothesis_fit import make_fit
 from slipwise.selection.initial_grid import strengths
 from slipwise.selection.jacobian_memory import complete_jacobian
@@ -151,26 +152,26 @@ class WhyNot:
         }
 
 
-def explain_why_not(state: Search, named: Sequence[str], effect: str, reference: Hypothesis) -> WhyNot:
+def explain_why_not(state: Search, named: Sequence[str], effect: str) -> WhyNot:
     """Say why an effect was not named.
+
+    All models are weighed with the noise of the base model, as they were in the search: only so they compare.
 
     Args:
         state: of the finished search.
         named: what the verdict names.
         effect: that is asked about.
-        reference: the model with what was named; the base model where nothing was.
 
     Raises:
         UnknownNameError: no effect that was looked at has this name.
     """
     own = [t for t in state.terms if t.effect.name == effect]
-    if not own and effect not in state.cannot:
-        known = {*(t.effect.name for t in state.terms), *state.cannot}
-        raise unknown_name("effect of this campaign", effect, known, "`slipwise effects` lists the catalogue.")
-    if not own:
-        return WhyNot(effect, tuple(named), reason=f"this campaign cannot test it: {state.cannot[effect]}")
-    if effect in named:
-        return WhyNot(effect, tuple(named), reason="it was named")
+    known = list_known_effects(state)
+    if effect not in known:
+        raise unknown_name("effect", effect, known, "`slipwise effects` lists them.")
+    if reason := _find_reason(state, named, effect, tested=bool(own)):
+        return WhyNot(effect, tuple(named), reason=reason)
+    reference = complete_jacobian(state.best if named else state.path[0])
     term, values = _choose_term(state, own)
     rest = [t for t in reference.terms if t.effect.name != effect]
     without = reference if len(rest) == len(reference.terms) else _fit(state, rest, {}, reference)
@@ -192,6 +193,17 @@ def explain_why_not(state: Search, named: Sequence[str], effect: str, reference:
     return replace(found, apart=not together, size=moved.share)
 
 
+def _find_reason(state: Search, named: Sequence[str], effect: str, *, tested: bool) -> str:
+    """Say why there is nothing to compare; "" where there is."""
+    if effect in named:
+        return "it was named"
+    if tested:
+        return ""
+    if effect in state.cannot:
+        return f"this campaign cannot test it: {state.cannot[effect]}"
+    return "it is part of the base model already, or does not act on a rig like this one"
+
+
 def explain_rivals(state: Search, named: Sequence[str], most: int) -> list[WhyNot]:
     """Say why the best of what was refitted in the place of a named effect was not named; nothing is fitted anew.
 
@@ -204,7 +216,8 @@ def explain_rivals(state: Search, named: Sequence[str], most: int) -> list[WhyNo
     for h in sorted(state.tried, key=lambda h: -compute_score(best.summary, h.summary)):
         own = [n for n in h.names if n not in best.names]
         gone = [n for n in best.names if n not in h.names and n in named]
-        if len(out) < most and len(own) == len(gone) == 1 and own[0] not in out and not h.solution.residuals.is_empty:
+        told = len(own) == len(gone) == 1 and own[0] not in (*named, *out) and not h.solution.residuals.is_empty
+        if told and len(out) < most:
             out[own[0]] = _compare(state, named, own[0], gone[0], best, h, None)
     return list(out.values())
 
@@ -240,7 +253,7 @@ def _compare(
 
 def _fit(state: Search, terms: Sequence[Term], starts: dict, before: Hypothesis) -> Hypothesis:
     found = polish(refit(state.base, terms, starts, before)) if terms else state.path[0]
-    return complete_jacobian(weigh_as(found, before.objective))
+    return complete_jacobian(found)
 
 
 def _fit_best(state: Search, terms: Sequence[Term], starts: dict, before: Hypothesis) -> Hypothesis:
@@ -248,7 +261,7 @@ def _fit_best(state: Search, terms: Sequence[Term], starts: dict, before: Hypoth
     starts = {t.label: before.values_of(t) for t in before.terms} | starts
     first, second = (polish(refit(state.base, terms, starts, start)) for start in (before, None))
     best = first if first.solution.cost < second.solution.cost else second
-    return complete_jacobian(weigh_as(best, before.objective))
+    return complete_jacobian(best)
 
 
 def _choose_term(state: Search, own: Sequence[Term]) -> tuple[Term, dict[str, float]]:

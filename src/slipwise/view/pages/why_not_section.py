@@ -25,8 +25,8 @@ def limits_section(found: Diagnosis) -> Section | None:
         return None
     words = (
         f"Each effect that was not named is at most so large ({100 * CHANCE:.0f} %), in the unit of its strength and "
-        "in multiples of what matters in this campaign; beside that the change of the replayed run by an effect of that "
-        "size. Where it says `not told`, the campaign says nothing of it."
+        "in multiples of what matters in this campaign; beside that the change of the replayed run by an effect of "
+        "that size. Where it says `not told`, the campaign says nothing of it."
     )
     brief = limit_rows(found, brief=True)
     pieces: list[Piece] = [paragraph(missed_words(found)), paragraph(words)]

@@ -1,6 +1,8 @@
 """What is said of effects that are not named: how large they can be, and whether they would have been seen."""
 
+from collections.abc import Mapping
 from math import isfinite
+from typing import Any
 
 from slipwise.diagnosis.indistinguishable import list_known_effects
 from slipwise.diagnosis.result import Diagnosis
@@ -18,6 +20,8 @@ _RESPONSES = {
 }
 #: Names that a sentence lists; the table has all.
 _LISTED = 8
+#: Where there is no number.
+_NONE = "-"
 
 
 def missed_words(found: Diagnosis) -> str:
@@ -47,7 +51,7 @@ def limit_rows(found: Diagnosis, *, brief: bool = False) -> list[dict[str, str]]
     return [
         {
             "effect": limit.label if limit.label != limit.effect and not limit.responses else limit.effect,
-            "at most": own_unit(known.get(limit.effect), limit),
+            "at most": _own_unit(known.get(limit.effect), limit.parameter, limit.value),
             "of what matters": f"{limit.size:.2g}" if limit.measured else "not told",
             **{_RESPONSES[r][0]: _changed(limit, r) for r in asked},
         }
@@ -55,20 +59,39 @@ def limit_rows(found: Diagnosis, *, brief: bool = False) -> list[dict[str, str]]
     ]
 
 
-def own_unit(effect: Effect | None, limit: UpperLimit) -> str:
+def limit_sentence(effect: Effect | None, limit: Mapping[str, Any]) -> str:
+    """Say how large an effect can be at most.
+
+    Args:
+        effect: None where it is not known here.
+        limit: entry of `limits` of diagnosis.json.
+    """
+    if not limit["measured"]:
+        return "This campaign says nothing of it."
+    own = _own_unit(effect, limit["parameter"], limit["value"])
+    moved = [
+        f"{factor * abs(limit[r]):.2g} {head.partition('[')[2].rstrip(']')} of {head.partition(' [')[0]}"
+        for r, (head, factor) in _RESPONSES.items()
+        if limit.get(r)
+    ]
+    rest = ", ".join([*([own] if own != _NONE else []), *moved])
+    return f"At most {limit['size']:.2g} times what matters (95 %)" + (f": {rest}." if rest else ".")
+
+
+def _own_unit(effect: Effect | None, strength: str, size: float | None) -> str:
     """Write a limit in the unit in which its strength is read."""
-    if effect is None or not limit.parameter or not isfinite(limit.value):
-        return "-"
-    parameter = effect.parameter(limit.parameter)
+    if effect is None or not strength or size is None or not isfinite(size):
+        return _NONE
+    parameter = effect.parameter(strength)
     shown = parameter.shown_in or parameter.unit
     zero = convert(0.0, parameter.unit, shown)  # a temperature's zero moves, a difference of temperatures does not
-    value = convert(limit.value, parameter.unit, shown) - zero
-    return f"{limit.parameter} {value:.2g}" + ("" if shown == "1" else f" {shown}")
+    value = convert(size, parameter.unit, shown) - zero
+    return f"{strength} {value:.2g}" + ("" if shown == "1" else f" {shown}")
 
 
 def _changed(limit: UpperLimit, response: str) -> str:
     if response not in limit.responses or not limit.measured:
-        return "-"
+        return _NONE
     value = abs(_RESPONSES[response][1] * limit.responses[response])
     return f"{value:.2g}" if value >= 1e-3 else "0"
 
@@ -81,7 +104,7 @@ def power_rows(found: Diagnosis) -> list[dict[str, str]]:
             "effect": p.effect,
             "seen": _of_hundred(p.seen, p.twins),
             "named first": _of_hundred(p.named, p.twins),
-            "else taken for": ", ".join(f"{n} ({_of_hundred(k, p.twins)})" for n, k in p.taken_for.items()) or "-",
+            "else taken for": ", ".join(f"{n} ({_of_hundred(k, p.twins)})" for n, k in p.taken_for.items()) or _NONE,
         }
         for p in ordered
     ]
