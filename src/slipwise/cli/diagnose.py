@@ -24,7 +24,7 @@ from slipwise.cli.options import (
     start_model,
 )
 from slipwise.cli.workers import Cluster, Workers
-from slipwise.errors import InputError
+from slipwise.errors import InputError, unknown_name
 from slipwise.jobs.interruption import Stopped
 
 CampaignFolders = Annotated[
@@ -54,6 +54,13 @@ def diagnose(
     accept: Annotated[
         bool, typer.Option("--accept", help="Put what it names into the campaign's model.toml, and fit that.")
     ] = False,
+    power: Annotated[
+        bool, typer.Option("--power", help="Say which effects a campaign like this would have shown (a minute or two).")
+    ] = False,
+    why_not: Annotated[
+        list[str] | None,
+        typer.Option(help="Say why this effect was not named, and what contradicts it; may be given more than once."),
+    ] = None,
     timings: Annotated[bool, typer.Option(help="Print how long each stage took.")] = False,
     json: Json = False,
 ) -> None:
@@ -69,11 +76,15 @@ def diagnose(
     if len(campaign) > 1:
         if accept:
             raise InputError("--accept writes the model.toml of one campaign; give one")
+        if power or why_not:
+            raise InputError("--power and --why-not ask about one campaign; give one")
         own = tuple(str(Path(name).resolve()) if name.endswith(".py") else name for name in effect or [])
         wanted = Wanted(model.resolve() if model else None, own, trust, system, recording)
         diagnose_many(campaign, out, wanted, workers, cluster, json)
         return
-    _diagnose_one(campaign[0], out, model, effect, trust, system, recording, figures, accept, json, timings)
+    _diagnose_one(
+        campaign[0], out, model, effect, trust, system, recording, figures, accept, power, why_not or [], json, timings
+    )
 
 
 def _diagnose_one(
@@ -86,10 +97,13 @@ def _diagnose_one(
     recording: bool,
     figures: bool,
     accept: bool,
+    power: bool,
+    why_not: list[str],
     json: bool,
     timings: bool,
 ) -> None:
     measured = sw.load_campaign(campaign)
+    _refuse_unknown(why_not, effect)
     folder = out_folder(out)
     start = start_model(campaign, model, trust, effect)
     # opened first: whoever has this campaign open elsewhere hears so before minutes have passed
@@ -98,12 +112,25 @@ def _diagnose_one(
         own = own_effects(effect, start)
         with steps() as tell:
             found = sw.diagnose(measured, start, own=own, system=system, law=False, progress=tell)
+            if power:
+                tell("putting each effect into twins of the campaign", 1.0)
+                found = found.with_power()
+            if why_not:
+                tell("refitting what was asked about", 1.0)
+                found = found.with_why_not(*why_not)
         _show(found, folder, recording and measured.specimen.free, figures, json, timings)
         if session is not None:
             _accept(found, session, ERR if json else OUT)
     finally:
         if session is not None:
             session.close()
+
+
+def _refuse_unknown(names: list[str], own: list[str] | None) -> None:
+    """Refuse a name that is in no catalogue before minutes have passed; that of an own file is known afterwards."""
+    for name in names:
+        if name not in sw.effects.catalogue() and not own:
+            raise unknown_name("effect", name, sw.effects.catalogue(), "`slipwise effects` lists them.")
 
 
 def _accept(found: "sw.Diagnosis", session: "sw.Session", console: Console) -> None:
@@ -159,7 +186,9 @@ def _with_law(found: "sw.Diagnosis", console: Console) -> "sw.Diagnosis":
 def _tell(found: "sw.Diagnosis") -> None:
     """Print the verdict, what each effect changes, its rivals and what it rests on."""
     from slipwise.view.words.diagnosis_words import cannot_tell_words, error_name, floors, four_answers
+    from slipwise.view.words.limit_words import limit_rows, power_rows, power_words
     from slipwise.view.words.terminal import print_table
+    from slipwise.view.words.why_not_words import why_not_words
 
     for question, answer in four_answers(found):
         say(f"{question} {answer}")
@@ -174,6 +203,15 @@ def _tell(found: "sw.Diagnosis") -> None:
     ]  # fmt: skip
     if rows:
         print_table(f"Hypotheses; {error_name(found)} before and after, in noise floors", rows)
+    for why in found.why_not:
+        say(f"Why not {why.effect}?")
+        for words in why_not_words(why):
+            say(f"  {words}")
+    if found.power:
+        say(power_words(found))
+        if rows := limit_rows(found, brief=True):
+            print_table("Not named, and possibly there at a size that matters: at most so large (95 %)", rows)
+        print_table("Each effect at the limit of what matters, in campaigns like this one", power_rows(found))
     for run in found.predicted_friction:
         say(run.words)
     for words in cannot_tell_words(found):

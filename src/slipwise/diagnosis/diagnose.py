@@ -35,6 +35,7 @@ from slipwise.selection.hypothesis_fit import make_fit
 from slipwise.selection.importance import compute_importance
 from slipwise.selection.search_state import Search
 from slipwise.selection.select import SelectionResult, select_effects
+from slipwise.selection.upper_limits import UpperLimit, compute_upper_limits
 
 #: Hypotheses that are listed.
 _LISTED = 6
@@ -119,6 +120,7 @@ def diagnose(
         final=final,
         seconds=sum(stages.values()),
         stages=stages,
+        limits=_limits(state, verdict),
     )
 
 
@@ -148,6 +150,13 @@ def _predicted_friction(final: BaseFit) -> tuple[PredictedFriction, ...]:
     if final.objective.balanced:
         return ()
     return tuple(found for found in predict_friction(final) if found.inside is not None)
+
+
+def _limits(state: Search, verdict: Verdict) -> dict[str, UpperLimit]:
+    """Return how large each effect that is not named can be at most; of a tie all are named."""
+    if state.weighing is None:
+        return {}
+    return compute_upper_limits(state.weighing, state.terms, verdict.effects)
 
 
 def _component(state: Search, verdict: Verdict) -> str:

@@ -1,7 +1,7 @@
 """What `diagnose` answers: a verdict with its evidence, as an object, as JSON and in words."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -12,17 +12,21 @@ from slipwise.diagnosis.ladder import Ladder, make_ladder
 from slipwise.diagnosis.replays import replays
 from slipwise.diagnosis.unknown_surface import ResidualSurface
 from slipwise.diagnosis.verdict import Verdict
+from slipwise.diagnosis.why_not import WhyNot, explain_rivals, explain_why_not
 from slipwise.display import Drawn, Tabular
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval
 from slipwise.estimation.prediction_interval import PredictedFriction
+from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
 from slipwise.noise.level import is_at_floor
 from slipwise.preparation.data_corrections import BEFORE_BALANCES, DataCorrection
 from slipwise.record import Record
 from slipwise.selection.explained_alone import ExplainedAlone
 from slipwise.selection.importance import Importance
+from slipwise.selection.power import TWINS, EffectPower, compute_power
 from slipwise.selection.search_state import Search
+from slipwise.selection.upper_limits import UpperLimit
 
 #: Number of the format of diagnosis.json.
 SCHEMA = 2
@@ -75,6 +79,9 @@ class Diagnosis(Drawn, Tabular):
         seconds: it took.
         stages: what was done, in order -> how long it took [s].
         law: where the verdict is unknown: what `discover` proposes, for a program to read, or None.
+        limits: effect that was not named -> how large it can be at most, the largest first.
+        power: effect -> what would have been said of it at the limit of what matters; empty where nobody asked.
+        why_not: answers of `with_why_not`.
     """
 
     campaign: str
@@ -97,6 +104,9 @@ class Diagnosis(Drawn, Tabular):
     seconds: float
     stages: Mapping[str, float]
     law: Mapping[str, Any] | None = None
+    limits: Mapping[str, UpperLimit] = field(default_factory=dict[str, UpperLimit])
+    power: Mapping[str, EffectPower] = field(default_factory=dict[str, EffectPower])
+    why_not: tuple[WhyNot, ...] = ()
 
     @property
     def first(self) -> tuple[DataCorrection, ...]:
@@ -128,6 +138,42 @@ class Diagnosis(Drawn, Tabular):
     def discriminating_tests(self) -> tuple[str, ...]:
         """What would tell two explanations of an ambiguous verdict apart; nothing for another verdict."""
         return list_discriminating_tests(self.verdict, self.search)
+
+    @property
+    def may_be_missed(self) -> tuple[str, ...]:
+        """Effects that were not named and may be there at a size that matters, for all this campaign can tell."""
+        return tuple(name for name, limit in self.limits.items() if limit.may_matter)
+
+    @one_thread_algebra()
+    def with_power(self, twins: int = TWINS) -> "Diagnosis":
+        """Return the diagnosis with what would have been said of each effect at the limit of what matters.
+
+        Args:
+            twins: campaigns with the same model, motions and noise that are looked at for each effect.
+        """
+        weighing = self.search.weighing
+        return self if weighing is None else replace(self, power=compute_power(weighing, twins))
+
+    @one_thread_algebra()
+    def with_why_not(self, *names: str) -> "Diagnosis":
+        """Return the diagnosis with why each of some effects was not named; it is refitted for that.
+
+        Args:
+            names: of effects.
+
+        Raises:
+            UnknownNameError: an effect that this campaign does not know.
+        """
+        found = tuple(explain_why_not(self.search, self.verdict.effects, n) for n in names)
+        return replace(self, why_not=(*self.why_not, *found))
+
+    def explain_rivals(self, most: int = 2) -> list[WhyNot]:
+        """Return why the best of what was refitted in the place of a named effect was not named.
+
+        Args:
+            most: rivals at most.
+        """
+        return explain_rivals(self.search, self.verdict.effects, most) if self.added else []
 
     def ladder(self) -> Ladder:
         """Return the ladder that the diagnosis has climbed already."""
@@ -225,6 +271,10 @@ class Diagnosis(Drawn, Tabular):
             "law": None if self.law is None else dict(self.law),
             "predicted_friction": [_predicted_friction(f) for f in self.predicted_friction],
             "least": {k: _number(v) for k, (v, _) in self.least.items()},
+            "limits": {name: limit.as_json() for name, limit in self.limits.items()},
+            "may_be_missed": list(self.may_be_missed),
+            "power": {name: one.as_json() for name, one in self.power.items()},
+            "why_not": [one.as_json() for one in self.why_not],
             "cannot_tell": list(self.cannot_tell),
             "first": [one.as_json() for one in self.first],
             "corrections": [one.as_json() for one in self.corrections],

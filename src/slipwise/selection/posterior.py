@@ -174,14 +174,10 @@ def compute_posterior(
         if one in forms.labels and other in forms.labels:
             excludes[forms.labels.index(one), forms.labels.index(other)] = True
     one_sided = np.array([not c.two_sided for c in columns])
-    small = np.where(forms.gauge, prior.trifle_of_gauges, prior.trifle)
-    trifle = np.empty(len(columns))
-    for f, (t, length) in enumerate(zip(forms.owner, forms.length, strict=True)):
-        trifle[forms.columns[f, :length]] = small[t] / np.sqrt(per_form[t])
+    trifle = list_trifles(columns)
     inside = slice(base, None)
     counts = np.maximum(statistics.rows, 1.0)
     level = np.maximum(statistics.fitted / counts, prior.floor)
-    ridge = np.concatenate([np.zeros(base), trifle**-2.0])
     widths, odds_of = np.array(prior.large), np.log(prior.widths)
     none = np.full(prior.places, -1)
     as_fitted = none.copy()
@@ -189,14 +185,9 @@ def compute_posterior(
     as_fitted[: len(present)] = present
     for remaining in reversed(range(effort.rounds)):
         last = not remaining
-        weights = 1.0 / (level * np.maximum(1.0, statistics.rows / prior.independent))
-        whole = np.tensordot(weights, statistics.products, 1)
-        pull = -weights @ statistics.pulls
-        ridge[:base] = 1e-6 * np.diag(whole)[:base] + 1e-9
-        for place, (off, deviation) in tolerances.items():
-            ridge[place] += deviation**-2.0
-            pull[place] += off * deviation**-2.0
-        solved = np.linalg.solve(whole + np.diag(ridge), np.column_stack([whole[:, inside], pull]))
+        system = make_normal_system(statistics, tolerances, level, trifle)
+        whole, pull = system.whole, system.pull
+        solved = np.linalg.solve(system.regular, np.column_stack([whole[:, inside], pull]))
         precision = np.ascontiguousarray(whole[inside, inside] - whole[inside] @ solved[:, :-1])
         pulled = pull[inside] - whole[inside] @ solved[:, -1]
         chains, sweeps = (effort.chains, effort.sweeps) if last else (2, 15)
@@ -220,6 +211,54 @@ def compute_posterior(
     mean = sizes.mean(axis=0)
     gain = 0.5 * (pulled - precision @ mean + own * mean) ** 2 / own
     return _as_posterior(statistics, forms, taken, sizes, level, gain)
+
+
+def list_trifles(columns: Sequence[CandidateColumn]) -> Array:
+    """Return the standard deviation (K,) of what is always there of every column: a term's forms share it [limits]."""
+    prior = Prior()
+    forms: dict[str, set[int]] = {}
+    for c in columns:
+        forms.setdefault(c.label, set()).add(c.form)
+    return np.array(
+        [(prior.trifle_of_gauges if c.gauge else prior.trifle) / len(forms[c.label]) ** 0.5 for c in columns]
+    )
+
+
+@dataclass(frozen=True)
+class NormalSystem:
+    """What data and prior say of base numbers and trifles where nothing matters beside them.
+
+    Attributes:
+        whole: (k, k) precision that the data give.
+        regular: (k, k) the same with that of the prior.
+        pull: (k,) of the data.
+    """
+
+    whole: Array
+    regular: Array
+    pull: Array
+
+
+def make_normal_system(
+    statistics: Statistics, tolerances: Mapping[int, tuple[float, float]], level: Array, trifle: Array
+) -> NormalSystem:
+    """Weigh the products of all relations.
+
+    Args:
+        statistics: products of residual, slopes and columns.
+        tolerances: as of `compute_posterior`.
+        level: (r,) what is left of every relation [noise variance].
+        trifle: (K,) of `list_trifles`.
+    """
+    base = statistics.base
+    weights = 1.0 / (level * np.maximum(1.0, statistics.rows / Prior().independent))
+    whole = np.tensordot(weights, statistics.products, 1)
+    pull = -weights @ statistics.pulls
+    ridge = np.concatenate([1e-6 * np.diag(whole)[:base] + 1e-9, trifle**-2.0])
+    for place, (off, deviation) in tolerances.items():
+        ridge[place] += deviation**-2.0
+        pull[place] += off * deviation**-2.0
+    return NormalSystem(whole, whole + np.diag(ridge), pull)
 
 
 def _draw(

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from slipwise.arrays import Array
 from slipwise.campaign.materiality import Materiality
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import solve, with_slopes
@@ -27,11 +28,11 @@ from slipwise.selection.linearisation import Linearisation, linearise
 from slipwise.selection.posterior import QUICK, Posterior, compute_posterior
 from slipwise.selection.sensitivities import typical
 from slipwise.selection.statistics import scale_columns
-from slipwise.selection.units import compute_shares_of_sizes, compute_units, compute_units_of_fits
+from slipwise.selection.units import Moved, compute_moved_by_sizes, compute_units, compute_units_of_fits
 from slipwise.selection.whole_fits import compute_columns_of_fits, fit_whole, is_told_by_whole_fit
 
 #: Likelier than this to be of so many limits and floors: it takes part in the next linearisation.
-_LIKELY, _LIMITS, _FLOORS = 0.2, 0.6, 0.5
+LIKELY, _LIMITS, _FLOORS = 0.2, 0.6, 0.5
 #: Likelier than this to be no trifle: its unit is replayed at its own form and size, and its column is taken anew.
 _WORTH_A_REPLAY = 0.05
 #: Effects that take part in a linearisation at most, and how often it is done again.
@@ -58,11 +59,13 @@ class ProposedModel:
         origin: at the base model.
         linearisation: the last one.
         posterior: over what is in its model and beside it.
+        units: (label, strength) of a candidate -> what some size of it moves.
     """
 
     origin: Linearisation
     linearisation: Linearisation
     posterior: Posterior
+    units: Mapping[tuple[str, str], Moved]
 
     @property
     def hypothesis(self) -> Hypothesis:
@@ -94,7 +97,12 @@ def propose(base: BaseFit, terms: Sequence[Term], limits: Materiality) -> Propos
         found = _refitted(base, [t for t in terms if t.label in starts], starts) if starts else origin
         here = _linearised_again(base, here, found, terms, units, posterior, limits)
         here, posterior = _weighed(base, terms, here, limits, most)
-    return ProposedModel(first, here, posterior)
+    return ProposedModel(first, here, posterior, units)
+
+
+def compute_chances_of_large(posterior: Posterior) -> Array:
+    """Return for each term (T,) how likely it is large and seen: from `LIKELY` on it is refitted."""
+    return np.mean((posterior.sizes > _LIMITS) & (posterior.seen > _FLOORS), axis=0)
 
 
 def compute_unexplained(proposal: ProposedModel) -> dict[str, float]:
@@ -137,9 +145,9 @@ def _weighed(
             break
         done |= asked.keys()
         pairs = [(of[label], values) for (label, _), (values, _) in asked.items()]
-        shares = compute_shares_of_sizes(make_fit(base, here.hypothesis, with_slopes=False), pairs, limits, most)
+        moved = compute_moved_by_sizes(make_fit(base, here.hypothesis, with_slopes=False), pairs, limits, most)
         factors = np.ones(len(here.columns))
-        for ((label, form), (_, size)), share in zip(asked.items(), shares, strict=True):
+        for ((label, form), (_, size)), share in zip(asked.items(), (m.share for m in moved), strict=True):
             if share > 0.0 and size > 0.0 and not 1.0 / _SAME_UNIT < share / size < _SAME_UNIT:
                 at = [i for i, c in enumerate(here.columns) if (c.label, c.form) == (label, form)]
                 factors[at] = size / share
@@ -290,7 +298,7 @@ def _values_at(
 
 def _linearised_again(
     base: BaseFit, before: Linearisation, found: Hypothesis, terms: Sequence[Term],
-    units: Mapping[tuple[str, str], float], posterior: Posterior, limits: Materiality,
+    units: Mapping[tuple[str, str], Moved], posterior: Posterior, limits: Materiality,
 ) -> Linearisation:  # fmt: skip
     """Linearise at another model; columns of what is unlikely hardly change, and stay as they are."""
     rows = make_averaged_rows(found.objective)
@@ -317,7 +325,7 @@ def _linearised_again(
 
 
 def _in_units(
-    raw: Sequence[CandidateColumn], units: Mapping[tuple[str, str], float], rows: AveragedRows
+    raw: Sequence[CandidateColumn], units: Mapping[tuple[str, str], Moved], rows: AveragedRows
 ) -> list[CandidateColumn]:
     """Bring columns to units of materiality, other forms in proportion to what they change directly."""
     first: dict[tuple[str, str], float] = {}
@@ -327,14 +335,14 @@ def _in_units(
         # a gauge's fault is held against the channel that it changes, by as much as the step
         change = abs(c.unit) if c.gauge else _direct(c.column, rows)
         first.setdefault(key, change)
-        share = units.get(key, 0.0) * (change / first[key] if first[key] > 0.0 else 1.0)
+        share = (units[key].share if key in units else 0.0) * (change / first[key] if first[key] > 0.0 else 1.0)
         if share > (0.0 if c.strength else _NOTHING):
             out.append(replace(c, unit=c.unit / share, column=c.column / np.float32(share)))
     return out
 
 
 def list_likely(
-    here: Linearisation, terms: Sequence[Term], posterior: Posterior, least: float = _LIKELY
+    here: Linearisation, terms: Sequence[Term], posterior: Posterior, least: float = LIKELY
 ) -> dict[str, dict[str, float]]:
     """Return label -> values of what is likely large and seen, at its likeliest form.
 
@@ -345,7 +353,7 @@ def list_likely(
         least: probability from which on something is likely.
     """
     of = {t.label: t for t in terms}
-    chance = np.mean((posterior.sizes > _LIMITS) & (posterior.seen > _FLOORS), axis=0)
+    chance = compute_chances_of_large(posterior)
     out: dict[str, dict[str, float]] = {}
     for t in np.argsort(-chance)[:MOST_EFFECTS]:
         if chance[t] < least or chance[t] == 0.0:

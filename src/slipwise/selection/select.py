@@ -11,7 +11,7 @@ from slipwise.evidence.score import FLOOR, compute_score
 from slipwise.model import Model
 from slipwise.preparation.prepared import Prepared, fit_prepared
 from slipwise.relations.parameters import Term
-from slipwise.selection.candidates import list_candidates
+from slipwise.selection.candidates import list_candidates, list_exclusions
 from slipwise.selection.explained_alone import ExplainedAlone, explain_by_statistics
 from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, polish, refit, refit_for_report
 from slipwise.selection.inclusion import Inclusion, compute_inclusions
@@ -21,6 +21,7 @@ from slipwise.selection.plainer import plainest
 from slipwise.selection.posterior import Prior
 from slipwise.selection.proposals import ProposedModel, compute_unexplained, list_likely, propose
 from slipwise.selection.search_state import Search, try_all, try_one
+from slipwise.selection.weighing import keep_weighing
 
 #: A term that takes another's place in so large a share of the posterior is refitted in its place [1].
 _RIVALS = 0.1
@@ -87,7 +88,12 @@ def _select(prepared: Prepared, base: BaseFit, own: tuple[Effect, ...], tell: Ca
     origin = make_base_hypothesis(base)
     alone = _explain_alone(proposal, candidates)
     unexplained = compute_unexplained(proposal)
-    state = Search(base, cannot, candidates, (), (origin,), alone, _inclusions(proposal), unexplained)
+    weighing = keep_weighing(
+        proposal.linearisation, proposal.posterior, proposal.units, frozenset(list_exclusions(candidates))
+    )
+    state = Search(
+        base, cannot, candidates, (), (origin,), alone, _inclusions(proposal), unexplained, weighing=weighing
+    )
     starts = list_likely(proposal.linearisation, candidates, proposal.posterior)
     tell("refitting", 0.7)
     if starts:

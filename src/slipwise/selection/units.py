@@ -6,6 +6,7 @@ Forms of one candidate are replayed once, the others follow in proportion to wha
 """
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -30,10 +31,23 @@ from slipwise.selection.initial_grid import shapes, strengths
 from slipwise.selection.sensitivities import small
 
 
+@dataclass(frozen=True)
+class Moved:
+    """What some size of an effect moves.
+
+    Attributes:
+        share: the largest of its changes, as a share of what matters [1]; 0 where no answer can be given.
+        responses: name of `RESPONSES` -> change of the replayed run, with its sign [m, J, N]; empty for gauges.
+    """
+
+    share: float
+    responses: Mapping[str, float] = field(default_factory=dict[str, float])
+
+
 def compute_units(
     base: BaseFit, terms: Sequence[Term], whole: Sequence[Hypothesis], limits: Materiality, most: Mapping[str, int]
-) -> dict[tuple[str, str], float]:
-    """Return (label, strength) -> share of the limit that the small strength of its column changes [1].
+) -> dict[tuple[str, str], Moved]:
+    """Return (label, strength) -> what the small strength of its column moves.
 
     Args:
         base: the fit from which the candidates depart.
@@ -44,15 +58,15 @@ def compute_units(
     """
     moved = [(term, p) for term in terms for p in strengths(term.effect)]
     sizes = [(term, small(term.effect, shapes(term.effect)[0], p)) for term, p in moved]
-    shares = compute_shares_of_sizes(base, sizes, limits, most)
-    found = {(term.label, p.name): share for (term, p), share in zip(moved, shares, strict=True)}
+    answers = compute_moved_by_sizes(base, sizes, limits, most)
+    found = {(term.label, p.name): one for (term, p), one in zip(moved, answers, strict=True)}
     return found | compute_units_of_fits(base, whole, limits)
 
 
-def compute_shares_of_sizes(
+def compute_moved_by_sizes(
     here: BaseFit, asked: Sequence[tuple[Term, Mapping[str, float]]], limits: Materiality, most: Mapping[str, int]
-) -> list[float]:
-    """Return the share of the limit that each term changes at these values, added to a fit [1]; 0 where none answers.
+) -> list[Moved]:
+    """Return what each term moves at these values, added to a fit.
 
     Args:
         here: a fit without the terms.
@@ -63,15 +77,15 @@ def compute_shares_of_sizes(
     whole, places = build_answering_model(here), [choose_shown(here), *dict.fromkeys(most.values())]
     bare = {place: _answer(whole, here, place) for place in dict.fromkeys(places)}
 
-    def share(k: int) -> float:
+    def moved(k: int) -> Moved:
         term, values = asked[k]
         if term.effect.port == "gauge":
-            return _share_of_gauge(here, term, values, limits)
+            return Moved(_share_of_gauge(here, term, values, limits))
         model = _having(whole, term, {f"{term.label}.{n}": v for n, v in values.items()})
         own = [places[0], *([most[term.label]] if term.label in most else [])]
-        return _largest_share(here, model, bare, own, limits)
+        return _compare(here, model, bare, own, limits)
 
-    return list(on_every_core(share, len(asked)))
+    return list(on_every_core(moved, len(asked)))
 
 
 def compute_sizes_in_place(
@@ -92,19 +106,19 @@ def compute_sizes_in_place(
     def size(k: int) -> float:
         term = terms[k]
         if term.label in laws:
-            return _largest_share(here, build_answering_model(laws[term.label]), bare, places, limits)
+            return _compare(here, build_answering_model(laws[term.label]), bare, places, limits).share
         if term.effect.port == "gauge":
             own = {n: values[f"{term.label}.{n}"] for n in term.effect.parameter_names}
             return _share_of_gauge(here, term, own, limits)
-        return _largest_share(here, whole.without(*(u.label for u in term.uses(values))), bare, places, limits)
+        return _compare(here, whole.without(*(u.label for u in term.uses(values))), bare, places, limits).share
 
     return {t.label: x for t, x in zip(terms, on_every_core(size, len(terms)), strict=True)}
 
 
 def compute_units_of_fits(
     here: BaseFit, whole: Sequence[Hypothesis], limits: Materiality
-) -> dict[tuple[str, str], float]:
-    """Return (label, "") -> share of the limit that a candidate changes as it was fitted [1].
+) -> dict[tuple[str, str], Moved]:
+    """Return (label, "") -> what a candidate moves as it was fitted.
 
     A law that takes another's place is held against the fit with that other one, what else is added against nothing.
 
@@ -118,18 +132,18 @@ def compute_units_of_fits(
     place = choose_shown(here)
     without = {place: _answer(build_answering_model(here), here, place)}
 
-    def share(k: int) -> float:
+    def moved(k: int) -> Moved:
         [term], fit = whole[k].terms, make_fit(here, whole[k], with_slopes=False)
         if term.effect.port == "gauge":
-            return _share_of_gauge(fit, term, whole[k].values_of(term), limits)
+            return Moved(_share_of_gauge(fit, term, whole[k].values_of(term), limits))
         model = build_answering_model(fit)
         if term.effect.replaces:
-            return _largest_share(here, model, without, [place], limits)
+            return _compare(here, model, without, [place], limits)
         bare = model.without(*(u.label for u in term.uses(fit.solution.values)))
-        return _largest_share(fit, bare, {place: _answer(model, fit, place)}, [place], limits)
+        return _compare(fit, bare, {place: _answer(model, fit, place)}, [place], limits)
 
-    shares = on_every_core(share, len(whole))
-    return {(h.terms[0].label, ""): x for h, x in zip(whole, shares, strict=True)}
+    answers = on_every_core(moved, len(whole))
+    return {(h.terms[0].label, ""): x for h, x in zip(whole, answers, strict=True)}
 
 
 def _answer(model: Model, here: BaseFit, place: int) -> Answer:
@@ -143,29 +157,31 @@ def _having(model: Model, term: Term, values: Mapping[str, float]) -> Model:
     return model.adding(*term.uses(values))
 
 
-def _largest_share(
+def _compare(
     here: BaseFit, model: Model, bare: Mapping[int, Answer], places: Sequence[int], limits: Materiality
-) -> float:
-    """Return the largest change against the bare answers, as a share of what matters [1]; 0 where none can be given.
+) -> Moved:
+    """Return what a model moves against the bare answers.
 
     Slip, energy and load count in the first of the places, channels in all: wear may be over when that run begins.
     """
     shares: list[float] = []
+    changes: dict[str, float] = {}
     for number, place in enumerate(places):
         try:
             there = _answer(model, here, place)
         except (SlipwiseError, FloatingPointError):
-            return 0.0
+            return Moved(0.0)
         run, without = here.objective.run(place), bare[place]
         for c in (c for c in there.channels if c in run.record and c in without.channels):
             change = there.channels[c] - without.channels[c]
             shares.append(compute_share_of_channel(change, run.record[c]) / limits.channel)
         if number == 0:
-            pairs = [(there.responses[r], size) for r, size in without.responses.items() if size > 0.0]
+            pairs = {r: (there.responses[r], size) for r, size in without.responses.items() if size > 0.0}
             # of the larger of the two: a spring loses next to no energy, and any change would be many times that
-            shares += [abs(x - size) / max(x, size) / limits.response for x, size in pairs]
+            shares += [abs(x - size) / max(x, size) / limits.response for x, size in pairs.values()]
+            changes = {r: x - size for r, (x, size) in pairs.items()}
     best = max(shares, default=0.0)
-    return best if np.isfinite(best) else 0.0
+    return Moved(best, changes) if np.isfinite(best) else Moved(0.0)
 
 
 def _share_of_gauge(here: BaseFit, term: Term, values: Mapping[str, float], limits: Materiality) -> float:

@@ -60,7 +60,18 @@ class _Screened(TypedDict):
     effect: str
 
 
+class _Limit(TypedDict):
+    size: float
+    value: float | None
+    parameter: str
+    measured: bool
+    peak_slip: NotRequired[float | None]
+    energy: NotRequired[float | None]
+    largest_load: NotRequired[float | None]
+
+
 class _Explained(_Said):
+    limits: NotRequired[dict[str, _Limit]]
     effects: list[str]
     minor: list[str]
     screened: list[_Screened]

@@ -14,6 +14,7 @@ from slipwise.selection.candidates import list_candidates
 from slipwise.session.session import Session
 from slipwise.session.state import SessionState
 from slipwise.units import parse_unit
+from slipwise.view.words.limit_words import limit_sentence
 from slipwise.view.words.number_names import called
 from slipwise.view.words.numbers import usual_unit
 
@@ -72,7 +73,16 @@ def state_told(session: Session) -> dict[str, Any]:
         "undo": state.words if history.before else "",
         "redo": history.after.words if history.after else "",
         "findings": dict(session.findings),
+        "limits": _limits(session),
     }
+
+
+def _limits(session: Session) -> dict[str, str]:
+    """Tell how large each effect can be that the last diagnosis of this model has not named, in words."""
+    last = session.findings.get("explain") or {}
+    if last.get("of") != [t.label for t in session.state.terms]:
+        return {}
+    return {name: limit_sentence(catalogue().get(name), one) for name, one in last.get("limits", {}).items()}
 
 
 def errors_told(session: Session, state: SessionState, beside: SessionState | None = None) -> list[dict[str, Any]]:

@@ -38,8 +38,9 @@ def test_units_are_shares_of_the_limit_and_columns_belong_to_them(tmp_path: Path
     half = Materiality(limits.channel / 2.0, limits.response / 2.0, limits.gauge / 2.0)
     strict = compute_units(base, terms, [], half, {})
     assert usual.keys() == strict.keys()
-    for key, share in usual.items():
-        assert strict[key] == pytest.approx(2.0 * share, rel=1e-6, abs=1e-12)
+    for key, moved in usual.items():
+        assert strict[key].share == pytest.approx(2.0 * moved.share, rel=1e-6, abs=1e-12)
+        assert strict[key].responses == moved.responses, "what a size moves does not depend on what matters"
     rows = make_averaged_rows(base.objective)
     columns = compute_raw_columns(base, list_forms(base, terms), rows)
     assert {c.label for c in columns} <= {t.label for t in terms}

@@ -48,8 +48,8 @@ def test_what_a_small_step_does_not_show_a_whole_fit_does(base: BaseFit) -> None
     explained = {n: 1.0 - np.sum((left + c.column) ** 2) / np.sum(left**2) for n, c in columns.items()}
     assert explained["presliding"] > 0.98 > explained["restrainer"]
     assert columns["presliding"].numbers > columns["restrainer"].numbers > 0
-    shares = compute_units_of_fits(base, list(fits.values()), Materiality())
-    assert shares["presliding", ""] > 10.0, "it matters many times over"
+    units = compute_units_of_fits(base, list(fits.values()), Materiality())
+    assert units["presliding", ""].share > 10.0, "it matters many times over"
 
 
 def test_a_model_without_a_term_is_the_base_fit_again(base: BaseFit) -> None:

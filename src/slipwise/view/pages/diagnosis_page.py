@@ -19,7 +19,9 @@ from slipwise.view.figures.diagnosis_figures import (
 from slipwise.view.figures.style import styled
 from slipwise.view.pages.diagnosis_effects import evidence_rows, importance_section, sizes_section
 from slipwise.view.pages.html import Section, bullets, callout, details, figure, page, paragraph, table, verdict
+from slipwise.view.pages.why_not_section import limits_section, why_not_pieces
 from slipwise.view.words.diagnosis_words import cannot_tell_words, confirmed_words, error_name, floors
+from slipwise.view.words.limit_words import missed_words
 from slipwise.view.words.numbers import in_words, usual_unit
 
 _TONES = {"complete": "good", "named": "warn", "instrument": "warn", "ambiguous": "warn", "unknown": "bad"}
@@ -54,7 +56,8 @@ def _page(found: Diagnosis, ladder: Ladder | None) -> str:
     if found.system:
         facts[f"{error}, replayed [noise floors]"] = _fall(found, found.system["base"], found.system["final"])
     facts["where"] = found.component
-    words = " ".join(filter(None, [found.sentence, confirmed_words(found)]))
+    missed = missed_words(found) if found.verdict.kind == "complete" else ""
+    words = " ".join(filter(None, [found.sentence, missed, confirmed_words(found)]))
     box = verdict(_headline(found), words, _TONES[found.verdict.kind], facts)  # type: ignore[arg-type]
     shape = found.verdict.leftover == "unknown" and found.verdict.surface is not None
     sections = [
@@ -65,6 +68,7 @@ def _page(found: Diagnosis, ladder: Ladder | None) -> str:
         sizes_section(found),
         _rivals(found),
         _change(found),
+        limits_section(found),
         _limits(found),
     ]
     first = [callout("Before anything was fitted", f"{thing.words}.", "warn") for thing in found.corrections]
@@ -171,6 +175,7 @@ def _rivals(found: Diagnosis) -> Section:
             "balance in which a hypothesis helps most."
         )
         pieces += [paragraph(words), table(rows)]
+    pieces += why_not_pieces(found)
     return Section("Rivals", pieces or [paragraph("No hypothesis lowered the error.")])
 
 

@@ -6,6 +6,7 @@ from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.verdict import Verdict, leaves_much
 from slipwise.noise.level import is_at_floor
+from slipwise.view.words.limit_words import missed_words
 
 
 def error_name(found: Diagnosis) -> str:
@@ -65,12 +66,13 @@ def four_answers(found: Diagnosis) -> list[tuple[str, str]]:
     good = [NAMES[r][0] for r, (base, _) in found.relations.items() if is_at_floor(base)]
     bad = {NAMES[r][0]: pair for r, pair in found.relations.items() if not is_at_floor(pair[0])}
     after = bool(found.added)
+    missed = missed_words(found) if found.verdict.kind == "complete" else ""
     fails = ", ".join(f"{n} {floors(a)}" + (f" -> {floors(b)}" if after else "") for n, (a, b) in bad.items())
     agrees = ", ".join(good) + (" are" if len(good) > 1 else " is") + " at the noise floor." if good else "No balance."
     return [
         ("What agrees?", agrees),
         ("Where does it fail?", f"In noise floors: {fails}." if fails else "Nowhere: no balance is above its floor."),
-        ("What is missing?", found.sentence),
+        ("What is missing?", " ".join(filter(None, [found.sentence, missed]))),
         ("What next?", _next_words(found)),
     ]
 

@@ -38,6 +38,7 @@ export class Effects {
   show(campaign, state) {
     const focused = document.activeElement?.id;
     this.campaign = campaign;
+    this.limits = state.limits ?? {};
     const about = new Map([...campaign.effects, ...state.own].map((e) => [e.name, e]));
     const labels = new Set(state.effects.map((e) => e.label));
     const own = state.effects.map((e) => this.#card(about.get(e.name) ?? { name: e.name }, e, state.numbers.filter((n) => n.label === e.label)));
@@ -95,7 +96,8 @@ export class Effects {
       onchange: () => this.ask({ do: "toggle", effect: about.name, target: use ? use.group : where ? where.value : "" }) });
     return make("div", { class: use ? "effect on" : "effect" },
       make("div", { class: "head" }, box, make("label", { for: id }, use ? use.label : about.name), where),
-      make("p", {}, about.summary ?? ""), about.equation ? this.#fold(`about-${id}`, "Equation and signature",
+      make("p", {}, about.summary ?? ""), !use && this.limits[about.name] ? make("p", { class: "hint" }, this.limits[about.name]) : null,
+      about.equation ? this.#fold(`about-${id}`, "Equation and signature",
         [make("p", {}, make("code", {}, about.equation)), make("p", {}, about.signature ?? "")]) : null,
       ...numbers.map((n) => this.#number(n)));
   }

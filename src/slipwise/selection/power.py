@@ -1,0 +1,142 @@
+"""Power of a campaign: each effect at the limit of what matters, put into twins of it, and what is said of them.
+
+"Breakaway would be seen in 95 of 100 campaigns like this one" says what a verdict that does not name it is worth. What
+is said of a twin is decided as for the campaign itself, by the same calibrated chances; only the standard errors by
+which a refit would lead are told by products.
+"""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.special import expit
+
+from slipwise.arrays import Array
+from slipwise.evidence.calibration import compute_log_odds, load_calibration
+from slipwise.evidence.decision import EVEN_ODDS, LISTED
+from slipwise.jobs.parallel import on_every_core
+from slipwise.selection.columns import OF_MODEL
+from slipwise.selection.inclusion import Inclusion, compute_inclusions
+from slipwise.selection.posterior import Posterior
+from slipwise.selection.proposals import LIKELY, compute_chances_of_large
+from slipwise.selection.statistics import compute_left_by_base
+from slipwise.selection.twins import compute_posterior_of_twin, make_twin
+from slipwise.selection.weighing import DRAWS, Weighing
+
+#: Twins of each effect.
+TWINS = 16
+#: Effects of a twin of which it is decided whether they are named: more are never likely.
+_MOST = 12
+
+
+@dataclass(frozen=True)
+class EffectPower:
+    """What would be said of an effect at the limit of what matters.
+
+    Attributes:
+        effect: its name.
+        twins: how many campaigns were looked at.
+        seen: in how many it is named, or listed as there.
+        named: in how many it is the first that is named.
+        taken_for: another effect -> in how many of the rest it is named in its place.
+    """
+
+    effect: str
+    twins: int
+    seen: int
+    named: int
+    taken_for: Mapping[str, int]
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the effect's entry of diagnosis.json."""
+        return {"twins": self.twins, "seen": self.seen, "named": self.named, "taken_for": dict(self.taken_for)}
+
+
+def compute_power(weighing: Weighing, twins: int = TWINS) -> dict[str, EffectPower]:
+    """Return effect -> what would be said of it, for every candidate that the model has not.
+
+    Args:
+        weighing: of the campaign.
+        twins: of each effect, `DRAWS` at most.
+    """
+    present = {c.effect for c in weighing.columns if c.form == OF_MODEL}
+    members: dict[str, list[int]] = {}
+    for place, c in enumerate(weighing.columns):
+        if c.effect not in present and c.form != OF_MODEL:
+            members.setdefault(c.effect, []).append(place)
+    asked = [(name, k) for name in members for k in range(min(twins, DRAWS))]
+    shown = _compute_shown(weighing)
+
+    def ask(k: int) -> tuple[str, ...]:
+        name, number = asked[k]
+        places = members[name]
+        place = places[number * len(places) // min(twins, DRAWS) if len(places) > twins else number % len(places)]
+        sign = -1.0 if weighing.columns[place].two_sided and number % 2 else 1.0
+        posterior = compute_posterior_of_twin(weighing, make_twin(weighing, place, sign, number))
+        return decide_what_is_said(weighing, posterior, shown, present)
+
+    answers: dict[str, list[tuple[str, ...]]] = {}
+    for (name, _), said in zip(asked, on_every_core(ask, len(asked)), strict=True):
+        answers.setdefault(name, []).append(said)
+    return {name: _count(name, said) for name, said in answers.items()}
+
+
+def _count(name: str, said: Sequence[tuple[str, ...]]) -> EffectPower:
+    others = Counter(names[0] for names in said if names and name not in names)
+    seen, first = sum(name in names for names in said), sum(names[:1] == (name,) for names in said)
+    return EffectPower(name, len(said), seen, first, dict(others.most_common()))
+
+
+def decide_what_is_said(weighing: Weighing, posterior: Posterior, shown: Array, present: set[str]) -> tuple[str, ...]:
+    """Return the effects that would be named or listed beside those of the model, the one that matters most first.
+
+    Args:
+        weighing: of the campaign.
+        posterior: of its twin.
+        shown: (K,) what the base fit leaves of one limit of each column, all samples together [noise variance].
+        present: effects of the model, of which nothing is asked.
+    """
+    inclusions = compute_inclusions(posterior, {})
+    likely: dict[str, float] = {}
+    for effect, chance in zip(posterior.effects, compute_chances_of_large(posterior), strict=True):
+        likely[effect] = max(likely.get(effect, 0.0), float(chance))
+    strongest: dict[str, float] = {}
+    for c, square in zip(weighing.columns, shown, strict=True):
+        strongest[c.effect] = max(strongest.get(c.effect, 0.0), float(square))
+    gauges = {c.effect for c in weighing.columns if c.gauge}
+    chances, out = load_calibration(), list[tuple[bool, float, str]]()
+    for name in sorted(likely, key=lambda e: -likely[e])[:_MOST]:
+        if name in present or likely[name] < LIKELY:
+            continue
+        of = inclusions[name]
+        evidence = _evidence(of, of.size * strongest[name] ** 0.5, gauge=name in gauges)
+        named = chances.matters(evidence) * float(expit(evidence["inclusion"])) >= EVEN_ODDS
+        if named or chances.present(evidence) >= LISTED:
+            out.append((named, of.size, name))
+    return tuple(name for _, _, name in sorted(out, reverse=True))
+
+
+def _evidence(of: Inclusion, errors: float, *, gauge: bool) -> dict[str, float]:
+    """Return the evidence of an effect that so many standard errors of noise tell from none.
+
+    The likelihood of its samples then leads by half of that, in standard errors of its own.
+    """
+    return {
+        "lead": float(np.log(np.clip(0.5 * errors, 0.1, 30.0))),
+        "share": 0.0,
+        "stays": of.stays,
+        "gauge": float(gauge),
+        "inclusion": float(np.clip(compute_log_odds(of.matters), -6.0, 6.0)),
+        "spread": min(of.spread, 1.0),
+        "seen": float(np.log(max(of.seen, 1e-2))),
+        "beside": 0.0,
+    }
+
+
+def _compute_shown(weighing: Weighing) -> Array:
+    """Return what the base fit leaves of one limit of each column, all samples together (K,) [noise variance]."""
+    left = compute_left_by_base(weighing.statistics)
+    squares = np.einsum("rii,r->i", left, np.maximum(weighing.statistics.samples, 1.0))
+    return np.maximum(squares, 0.0)

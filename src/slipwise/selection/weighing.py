@@ -1,0 +1,87 @@
+"""What the last posterior of a campaign was computed from, without the columns themselves, and its noise drawn again.
+
+Products of columns are all that a posterior asks for: what it would have said of another residual, of this model's
+noise with one more effect in it, needs no column and no replay.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from slipwise.arrays import Array
+from slipwise.selection.averaged_rows import AveragedRows
+from slipwise.selection.columns import CandidateColumn
+from slipwise.selection.linearisation import Linearisation
+from slipwise.selection.posterior import Posterior
+from slipwise.selection.statistics import Statistics
+from slipwise.selection.units import Moved
+
+#: Stretches of a series whose residual changes sign together, and how many times noise is drawn.
+_STRETCHES, DRAWS = 16, 20
+
+
+@dataclass(frozen=True)
+class Weighing:
+    """A final model with everything beside it, as products.
+
+    Attributes:
+        statistics: products of residual, slopes and columns.
+        columns: of candidates, then those of the model's own effects, without what they change.
+        tolerances: of the numbers that are fitted, as of `compute_posterior`.
+        apart: labels of terms that cannot be in one model, in both orders.
+        posterior: over all this.
+        own: (k,) sizes of the model's own effects as they were fitted, 0 for all else: by minus this the residual
+            without them differs from that of the fit [limits].
+        noise: (d, r, k) products of columns with the residual of the fit, drawn again.
+        units: (label, strength) of a candidate -> what some size of it moves.
+    """
+
+    statistics: Statistics
+    columns: tuple[CandidateColumn, ...]
+    tolerances: Mapping[int, tuple[float, float]]
+    apart: frozenset[tuple[str, str]]
+    posterior: Posterior
+    own: Array
+    noise: Array
+    units: Mapping[tuple[str, str], Moved]
+
+
+def keep_weighing(
+    here: Linearisation,
+    posterior: Posterior,
+    units: Mapping[tuple[str, str], Moved],
+    apart: frozenset[tuple[str, str]],
+) -> Weighing:
+    """Keep of a linearisation and its posterior what later questions need.
+
+    Args:
+        here: the last linearisation.
+        posterior: at it.
+        units: of `compute_units`.
+        apart: of `list_exclusions`.
+    """
+    own = np.zeros(here.statistics.products.shape[1])
+    own[len(own) - len(here.own) :] = [1.0 / c.unit for c in here.own]
+    signs = _draw_signs(here.rows)
+    noise = np.empty((len(signs), *here.statistics.pulls.shape))
+    every = np.column_stack([here.slopes.astype(np.float32), *(c.column for c in here.columns)])
+    for k in range(len(here.rows.relations)):
+        at = np.flatnonzero(here.rows.relation == k)
+        noise[:, k] = (signs[:, at] * here.fitted[at]).astype(np.float32) @ every[at]
+    bare = tuple(replace(c, column=np.zeros(0, np.float32)) for c in here.columns)
+    return Weighing(here.statistics, bare, here.tolerances, apart, posterior, own, noise, units)
+
+
+def _draw_signs(rows: AveragedRows) -> Array:
+    """Return signs (d, q) that turn a residual round, stretch by stretch: what is correlated in it stays so.
+
+    Source: Liu (1988), Annals of Statistics 16 (wild bootstrap); Shao (2010), JASA 105 (in blocks).
+    """
+    rng = np.random.default_rng(0)
+    out: list[Array] = []
+    for series in rows.series:
+        count = len(series.edges)
+        stretch = np.arange(count) * _STRETCHES // max(count, 1)
+        out.append(rng.choice([-1.0, 1.0], size=(DRAWS, _STRETCHES))[:, stretch])
+    return np.concatenate([np.zeros((DRAWS, 0)), *out], axis=1)
