@@ -110,7 +110,7 @@ def _link(largest: float, up: Array, down: Array, gone: Array, moved: Array, rat
     stiffness = float(leg @ backbone / (leg @ leg))
     straight = bool(np.abs(backbone - stiffness * leg).max() <= _SMALL * peak)
     points = np.empty((0, 2)) if straight else np.stack([leg, backbone], axis=1)[::_THINNED]
-    left = force - (stiffness * moved if straight else np.interp(moved, *points.T))
+    left = force - (stiffness * moved if straight else np.interp(moved, points[:, 0], points[:, 1]))
     if half:
         left = left - half * _along_loop(moved / length, rounded)
     fast = float(np.abs(rate).max(initial=0.0))

@@ -129,7 +129,7 @@ def _friction(fit: FrictionFit, area: float) -> str:
 def _pads(model: OpenSeesModel) -> str:
     s = model.specimen
     lines = [
-        "# pads: sliders with a vertical spring and dashpot that only push. The first node is on the side of the plate,",
+        "# pads: sliders with a vertical spring and dashpot that only push. First node: the plate's side,",
         f"# over which the load moves; here the pads stand on the {s.pads_on}",
         'ops.uniaxialMaterial("Elastic", 1, 1e-3)  # no moment, no torsion',
         f"# a pad slides after an elastic slip of {1e6 * model.elastic_slip:.3g} um: STICK [N/m]",
