@@ -39,6 +39,8 @@ if TYPE_CHECKING:
     from slipwise.discovery.result import Discovery
     from slipwise.effects import Effect
     from slipwise.errors import SlipwiseError
+    from slipwise.export.opensees import OpenSeesExport, export_opensees
+    from slipwise.export.sap2000 import LinkProperties, export_sap2000
     from slipwise.instruments.checks import Checks, corrected_campaign
     from slipwise.instruments.checks import check_instruments as audit
     from slipwise.instruments.report import AuditReport
@@ -77,6 +79,8 @@ _PLACES: dict[str, tuple[str, str]] = {
     "add_law": ("discovery.discover", "add_law"),
     "diagnose": ("discovery.discover", "diagnose_with_law"),
     "discover": ("discovery.discover", "discover"),
+    "export_opensees": ("export.opensees", "export_opensees"),
+    "export_sap2000": ("export.sap2000", "export_sap2000"),
     "ladder": ("diagnosis.ladder", "ladder"),
     "add": ("session.model_change", "add"),
     "remove": ("session.model_change", "remove"),
@@ -94,8 +98,10 @@ _PLACES: dict[str, tuple[str, str]] = {
     "Effect": ("effects", "Effect"),
     "Ladder": ("diagnosis.ladder", "Ladder"),
     "Limits": ("design.motions", "Limits"),
+    "LinkProperties": ("export.sap2000", "LinkProperties"),
     "ModelChange": ("session.model_change", "ModelChange"),
     "NextTest": ("design.next_test", "NextTest"),
+    "OpenSeesExport": ("export.opensees", "OpenSeesExport"),
     "Parameter": ("params", "Parameter"),
     "Record": ("record", "Record"),
     "Replay": ("simulation.simulator", "Replay"),
@@ -125,9 +131,11 @@ __all__ = [
     "Effect",
     "Ladder",
     "Limits",
+    "LinkProperties",
     "Model",
     "ModelChange",
     "NextTest",
+    "OpenSeesExport",
     "Parameter",
     "Record",
     "Replay",
@@ -150,6 +158,8 @@ __all__ = [
     "effects",
     "ensemble",
     "executors",
+    "export_opensees",
+    "export_sap2000",
     "init_campaign",
     "ladder",
     "load_campaign",

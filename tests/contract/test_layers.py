@@ -45,6 +45,7 @@ ARROWS: dict[str, str] = {
         "arrays campaign channels display effects errors estimation instruments jobs model motion noise preparation"
         " record relations residual_map rig signals simulation"
     ),
+    "export": "arrays campaign display effects errors model motion preparation record rig simulation",
     "bearings": ("arrays campaign display errors estimation jobs model preparation relations rig signals"),
     "selection": (
         "arrays campaign comparison effects errors estimation evidence jobs model motion params preparation relations"
@@ -71,8 +72,8 @@ ARROWS: dict[str, str] = {
         " relations rig selection simulation units"
     ),
     "view": (
-        "arrays bearings channels comparison diagnosis discovery effects errors estimation jobs noise params record"
-        " relations residual_map rig selection signals studies units"
+        "arrays bearings channels comparison diagnosis discovery effects errors estimation export jobs noise params"
+        " record relations residual_map rig selection signals studies units"
     ),
     "cli": "errors jobs view",
     "workbench": (

@@ -16,6 +16,7 @@ from slipwise.cli import (
     discover,
     effects,
     ensemble,
+    export,
     model_edit,
     next_test,
     paper,
@@ -41,6 +42,7 @@ for command in (
     app.command()(command)
 app.command("next")(next_test.next_motion)
 app.command()(bearing.bearing)
+app.add_typer(export.app, name="export")
 for command in (
     ensemble.ensemble, bench.bench, paper.paper, view.view, catalogue.rigs, catalogue.channels, catalogue.motions,
     effects.effects,
