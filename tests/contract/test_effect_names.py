@@ -32,6 +32,7 @@ ALLOWED = {
     # what a user takes in the place of what an MJCF may not hold
     *(("rig/mjcf/comparison.py", n) for n in ("buffer_damping", "guide_drag", "key_clearance", "key_friction")),
     ("model/entry.py", "heating"),  # an example of an entry
+    ("model/model.py", "buffer_damping"),  # what bearings that do not slide have for a base model
     *(
         (f, "superstructure") for f in ("data_files/column_words.py", "view/figures/paper_rig_pictures.py")
     ),  # of a bridge

@@ -25,6 +25,7 @@ NAMES: Mapping[str, tuple[str, str]] = {
     "storeys": ("push of the storeys", "N"),
     "motion": ("slip against accelerometers", "1"),
     "across": ("pad friction across", "N"),
+    "girder_y": ("girder balance across", "m/s^2"),
 }
 
 

@@ -106,7 +106,7 @@ def above_noise(found: Hypothesis, unexplained: Mapping[str, float]) -> dict[str
     """
     out: dict[str, float] = {}
     objective = found.objective
-    for relation in (r for r in objective.relations if r not in ("motion", "across")):
+    for relation in (r for r in objective.relations if r not in ("motion", "across", "girder_y")):
         left = unexplained.get(relation, 1.0) * _usual_level(found, relation)
         over = max(left - max(_NOISE, pure_error(found, relation)), 0.0)
         level = float(np.median(np.concatenate([np.ravel(of.sigma) for of in _fitted(found, relation)])))

@@ -94,12 +94,15 @@ def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materi
         if is_left(bare, limits.channel):
             # what takes it away is not believed, so it is still there: a model that leaves it is not complete
             kind, rest = "unknown", bare
+    named, probability = decided.named, decided.probability
+    if named and _explains_little(origin, final) and is_left(rest, limits.channel):
+        kind, named, probability = "unknown", (), max(1.0 - probability, EVEN_ODDS)
     nameless = any(f.at_limit and f.material >= 1.0 for f in found)
     verdict = Verdict(
         kind,
-        decided.named,
+        named,
         decided.minor,
-        decided.probability if kind == "unknown" or origin.objective.held_out else _UNCONFIRMED * decided.probability,
+        probability if kind == "unknown" or origin.objective.held_out else _UNCONFIRMED * probability,
         "unknown" if is_left(rest, limits.channel) or nameless else "none",
         compute_explained_share_of_base(origin, final),
         surface,
@@ -119,6 +122,12 @@ def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materi
             every = (*sorted(pair), *(n for n in decided.named if n not in pair))
             return replace(verdict, kind="ambiguous", effects=every)
     return verdict
+
+
+def _explains_little(origin: Hypothesis, final: Hypothesis) -> bool:
+    """Return whether effects leave more than half where no pad's force was measured: no gauge tells what else it is."""
+    without = origin.objective.specimen.free and not origin.objective.forces_measured
+    return without and compute_explained_share_of_base(origin, final) < 1.0 - _CARRIED_OVER
 
 
 def _in_place(state: Search, finding: EffectFinding) -> list[str]:

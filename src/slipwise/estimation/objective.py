@@ -12,6 +12,7 @@ import numpy as np
 
 from slipwise.campaign.scales import Scales
 from slipwise.model import Model
+from slipwise.relations.girder_across import GIRDER_ACROSS
 from slipwise.relations.girder_stages import BALANCES_LEFT
 from slipwise.relations.kinematics import is_pitching_table
 from slipwise.relations.measurement import is_shifting
@@ -196,6 +197,8 @@ class Objective:
         left = {"pads": pads.left} if "pads" in self.relations else {}
         if "across" in self.relations:
             left["across"] = evaluation.of(ACROSS)
+        if "girder_y" in self.relations:
+            left["girder_y"] = evaluation.of(GIRDER_ACROSS)
         if self.balanced:
             left |= evaluation.of(BALANCES_LEFT)
         return self.layout.filled(left, pads.predicted)

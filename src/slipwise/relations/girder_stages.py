@@ -21,7 +21,8 @@ from slipwise.relations.parameters import PITCH_INERTIA, ROLL_INERTIA, YAW_INERT
 from slipwise.relations.stages import Evaluation, Inputs, Stage
 from slipwise.simulation.predict import predictor
 
-_GIRDER_NUMBERS = (
+#: Numbers of the rig on which the balances depend.
+GIRDER_NUMBERS = (
     "rig.mass", "rig.centre_height", "rig.buffer_stiffness", YAW_INERTIA, PITCH_INERTIA, ROLL_INERTIA,
 )  # fmt: skip
 
@@ -49,7 +50,7 @@ def _leave_of_balances(inputs: Inputs) -> dict[str, list[Array]]:
     runs, scale, yaw, raised = corrected.runs, corrected.scale, inputs.of(YAW), inputs.of(RAISED)
     sigmas, ringing = inputs.weighed("sigmas"), inputs.weighed("ringing")
     shares = compute_noise_shares(measurements.specimen, runs[0]) if raised else {}
-    model = build_fitted_model(measurements.specimen, own, values, _GIRDER_NUMBERS)
+    model = build_fitted_model(measurements.specimen, own, values, GIRDER_NUMBERS)
     law = predictor(model)
     out: dict[str, list[Array]] = {name: [] for name in measurements.relations if name in BALANCES}
     masked = 0.0
@@ -88,7 +89,7 @@ def compute_balance_sides(evaluation: Evaluation, place: int) -> tuple[dict[str,
     """
     inputs = evaluation.inputs(BALANCES_LEFT)
     own = [term for term in inputs.terms if not is_fault_of_girder_gauge(term)]
-    model = build_fitted_model(inputs.measurements.specimen, own, inputs.values, _GIRDER_NUMBERS)
+    model = build_fitted_model(inputs.measurements.specimen, own, inputs.values, GIRDER_NUMBERS)
     law, runs, yaw = predictor(model), inputs.of(CORRECTED).runs, inputs.of(YAW)
     buffers = np.zeros((0, 0))
     for i in range(place + 1):  # what a buffer remembers goes on from run to run

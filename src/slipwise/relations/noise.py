@@ -86,13 +86,18 @@ def compute_law_noise_in_girder(specimen: Specimen, run: FitRun, plain: Array, r
 def compute_noise_across(run: FitRun, state: Instants, law_forces: PadForces) -> Array:
     """Return the noise of measured less predicted force along y (n, p) [N]: gauges, loads, direction, timing."""
     gauge = np.array([run.noise[f"pad_{p}_Fy"] for p in run.pads])
+    return np.hypot(gauge, compute_noise_of_law_across(run, state, law_forces))
+
+
+def compute_noise_of_law_across(run: FitRun, state: Instants, law_forces: PadForces) -> Array:
+    """Return the noise of the predicted force along y (n, p) [N]: loads, direction, timing."""
     loads = run.gauge_noise[1]
     force = law_forces.force[:: run.fine, :, 1]
     friction = np.abs(force) / np.maximum(run.load, 0.05 * run.load.mean())
     speed = np.maximum(np.hypot(*np.moveaxis(state.velocity[:: run.fine], 2, 0)), FAST * run.scales.speed)
     direction = law_forces.bound[:: run.fine] * run.states.pad_velocity_error.max() / speed
     timing = TIMING * run.scales.time * np.gradient(force, run.dt, axis=0)
-    return np.sqrt(gauge**2 + (0.6 * friction * loads) ** 2 + direction**2 + timing**2)
+    return np.sqrt((0.6 * friction * loads) ** 2 + direction**2 + timing**2)
 
 
 def whiten_residual(left: Array, run: FitRun, level: float, ringing: Array, driven: Array | None = None) -> Array:

@@ -11,6 +11,7 @@ from slipwise.campaign import Campaign, Run
 from slipwise.campaign.invalid_samples import InvalidSamples, add_wild_samples
 from slipwise.campaign.scales import Scales
 from slipwise.campaign.states import States, measured_states
+from slipwise.channels import VELOCITY_CHANNELS
 from slipwise.errors import InputError
 from slipwise.jobs.machine_code import kept
 from slipwise.record import Record
@@ -274,6 +275,11 @@ def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRu
     kept, ringing = mask_judged_and_ringing(states, grounded, sliding, fast, pads, bad)
     if not forces_measured:  # while pads stick a law does not say what they carry together
         kept["girder"] = kept["girder"] & told
+        across_needed = ("girder_ay", *storey_channels(campaign.specimen.storeys, "y"))
+        if states.has_y and states.record.has_all(*across_needed):
+            bad_across = [mask for name, mask in bad.items() if name in (*across_needed, "slip_y", *VELOCITY_CHANNELS)]
+            told = told & (fast | (not campaign.specimen.slides))
+            kept["girder_y"] = told & grounded & ~np.any([np.zeros(len(told), dtype=bool), *bad_across], axis=0)
     kept = without_estimated_loads(kept) if run.estimated else kept
     unseen = campaign.logger.unseen(shows_force)
     more = {"unseen": unseen, "ringing": ringing, "forces_measured": forces_measured}

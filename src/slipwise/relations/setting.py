@@ -36,12 +36,13 @@ class Measurements:
         """Names of the relations that every run allows, in the order in which their residuals are stacked."""
         balances = (r for r in BALANCES if all(r in list_available_balances(x, self.specimen) for x in self.runs))
         across = ("across",) if all(r.across.size for r in self.runs) else ()
-        return (*(("pads",) if self.forces_measured else ()), *balances, *across)
+        girder_across = ("girder_y",) if all("girder_y" in r.judged for r in self.runs) else ()
+        return (*(("pads",) if self.forces_measured else ()), *balances, *across, *girder_across)
 
     @property
     def balanced(self) -> bool:
         """Whether the balances of a girder are there."""
-        return bool({*self.relations} - {"pads", "across"})
+        return bool({*self.relations} - {"pads", "across", "girder_y"})
 
     @property
     def forces_measured(self) -> bool:

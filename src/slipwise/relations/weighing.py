@@ -6,6 +6,7 @@ import numpy as np
 
 from slipwise.arrays import Array
 from slipwise.model import Model
+from slipwise.relations.girder_across import compute_noise_of_girder_across
 from slipwise.relations.kinematics import CORRECTED, RIG_MOTIONS, STATES, compute_compliance, compute_pad_states
 from slipwise.relations.measurement import apply_on_force, compute_change_by_faults
 from slipwise.relations.noise import (
@@ -75,6 +76,9 @@ def weigh(evaluation: Evaluation) -> Weighing:
         ringing = {name: tuple(of) for name, of in rung if name in measurements.relations}
     if "across" in measurements.relations:
         sigmas["across"] = tuple(compute_noise_across(*each) for each in zip(runs, states, law_forces, strict=True))
+    if "girder_y" in measurements.relations:
+        each_run = zip(runs, states, law_forces, strict=True)
+        sigmas["girder_y"] = tuple(compute_noise_of_girder_across(model.specimen, *each) for each in each_run)
     return replace(begun, sigmas=sigmas, ringing=ringing)
 
 

@@ -120,7 +120,7 @@ HAS: dict[str, Callable[[Objective], bool]] = {
     "buffers": _sees_buffers,
     "balances": lambda objective: objective.balanced,
     "heave": lambda objective: "heave" in objective.relations,
-    "across": lambda objective: "across" in objective.relations,
+    "across": lambda objective: not {"across", "girder_y"}.isdisjoint(objective.relations),
     "prescribed slip": lambda objective: not objective.specimen.free,
     "storeys": lambda objective: "storeys" in objective.relations,
     "loads": lambda objective: objective.loads_measured,

@@ -164,3 +164,21 @@ def test_the_layer_is_described_by_period_damping_and_energy(isolated: Specimen)
     assert cannot["presliding"] == cannot["heating"] == NOTHING_SLIDES
     assert not {"presliding", "heating", "run_in"} & {term.effect.name for term in terms}
     assert [name for name, _ in list_untold_forces(fit.objective.measurements)][0] == "force of single buffers"
+
+
+def test_what_all_bearings_carry_across_is_judged_where_the_girder_moves_that_way() -> None:
+    """Of pads that slide by the true law it is noise; of pads that rub half as much it is not."""
+    model = base_model("bridge1")
+    motion = "quake:seed=2,peak=0.6g,f=3Hz,strong=1.5s,across=0.5g"
+    record = replay(model, motion, output_dt=2e-3).record
+    kept = ("table_ax", "table_ay", "girder_ax", "girder_ay", "slip_x", "slip_y")
+    noise = {"slip_x": 2e-5, "slip_y": 2e-5}
+    channels = {n: record[n] + noise.get(n, 0.02) * RNG.standard_normal(len(record)) for n in kept}
+    run = Run("q", "fit", Record(record.time, channels), 0.0, None, "q", "q")
+    logger = Logger(None, known=True)
+    campaign = Campaign("across", "bridge1", model.specimen, logger, (run,), Path())
+    fit = fit_base(campaign)
+    assert fit.objective.relations == ("girder", "motion", "girder_y")
+    assert fit.solution.residuals.level("girder_y", [0]) < 1.2
+    weak = {**fit.solution.values, "shear_rate.strength": 0.5 * fit.solution.values["shear_rate.strength"]}
+    assert fit.objective.residuals(weak).level("girder_y", [0]) > 3.0
