@@ -2,7 +2,7 @@
 
     d = s * double integral of (a_i - a_j)      or of a_i alone, which is a motion in space
 
-compared as accelerations, in the frequencies in which the displacement stands above its gauge's noise. A displacement
+compared as accelerations, in the frequencies in which the displacement stands above the noise of all gauges. A displacement
 that was measured has a noise of its own: where the motion is a few millionths of a metre it no longer follows the
 accelerations. One that does follow them there was computed from them, and says nothing that they do not.
 """
@@ -17,12 +17,12 @@ from slipwise.arrays import Array
 from slipwise.campaign.level_spectra import FEWEST, averaged_power, noise_power, spectrum
 
 #: A displacement belongs to an acceleration where they agree so well [1].
-AGREE = 0.9
+AGREE = 0.95
 #: Motion that is this part of the displacement's own size is below what a displacement gauge resolves [1]: from, to.
 _FINE = (1e-3, 2e-4)
 #: A displacement that still agrees so well with its accelerations there was computed from them [1], on so many lines.
 _COMPUTED, _FEWEST_LINES = 0.97, 8
-#: Power of a displacement above its noise from which a frequency counts [1].
+#: Power of a displacement above its noise, and that of the accelerations, from which a frequency counts [1].
 _ABOVE = 10.0
 #: What of a motion's rate lies below the frequencies that count, and what of the accelerations up to their end [1].
 _SLOWEST, _FASTEST = 0.02, 0.98
@@ -84,7 +84,9 @@ def find_sources(displacement: Array, accelerations: Array, dt: float) -> list[S
     counts = turning > 0.0
     counts[1:] &= power[1:] / turning[1:] ** 4 > _ABOVE * noise_power(power[1:] / turning[1:] ** 4)
     every = spectrum(accelerations)
-    counts &= _carries(power, np.asarray(np.mean([averaged_power(one) for one in every], axis=0)))
+    moved = np.stack([averaged_power(one) for one in every])
+    counts &= power > _ABOVE * float(np.median([noise_power(one) for one in moved]))
+    counts &= _carries(power, np.asarray(moved.mean(axis=0), dtype=np.float64))
     if np.count_nonzero(counts) < _FEWEST_LINES:
         return []
     weight = 1.0 / np.sqrt(power[counts])

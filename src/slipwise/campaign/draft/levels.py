@@ -32,7 +32,7 @@ _SURE = 0.3
 #: A level that moves by less than this part of what the others do shows nothing [1].
 _IDLE = 0.08
 #: Sources are as good as the best where they miss it by so many times what it lacks itself, and this [1].
-_LIKE, _BESIDE = 1.5, 1e-4
+_LIKE, _BESIDE = 0.3, 1e-4
 #: Units that a displacement without one is tried in [m].
 _UNITS = (("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("in", 0.0254))
 
@@ -206,13 +206,14 @@ def _displacements(
             yield column, None, "it is the double integral of no acceleration here, and of no difference of two"
             continue
         channel, derived = _channel_of(source, places, axis, names)
-        if channel in taken:
-            yield column, None, f"the same motion as {taken[channel]!r}"
+        plain = channel.removesuffix("_raw")
+        if plain in taken:
+            yield column, None, f"of all accelerations it follows that of {plain}, which is taken from {taken[plain]!r}"
             continue
         if derived.endswith(names[0]) and not table:
             yield column, None, "a displacement in space, and no column holds the table's: nothing gives the slip"
             continue
-        taken[channel] = column.header
+        taken[plain] = column.header
         unit, sign = _unit_and_sign(column, source)
         yield column, Mapped(channel, unit, sign, _why(column, source, levels, signals, unit, dt), "sure", derived), ""
 
