@@ -30,6 +30,8 @@ def limits_section(found: Diagnosis) -> Section | None:
         "that size. Where it says `not told`, the campaign says nothing of it."
     )
     brief = limit_rows(found, brief=True)
+    if found.verdict.leftover == "unknown":
+        words += " Something is missing here that has no name: the limits hold as far as it resembles none of these."
     pieces: list[Piece] = [paragraph(missed_words(found)), paragraph(words)]
     pieces += [table(brief, "May be there at a size that matters")] if brief else []
     pieces.append(details(f"All {len(rows)} effects that were not named", [table(rows)]))
