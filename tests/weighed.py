@@ -12,7 +12,7 @@ from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.posterior import compute_posterior
 from slipwise.selection.statistics import compute_statistics
 from slipwise.selection.units import Moved
-from slipwise.selection.weighing import DRAWS, Weighing
+from slipwise.selection.weighed_model import DRAWS, WeighedModel
 
 ROWS = 3000
 #: Strength of an effect of the catalogue that stands for a made column.
@@ -39,7 +39,7 @@ def column(name: str, values: Array, *, form: int = 0, unit: float = 0.02) -> Ca
 
 def weigh(
     left: Array, columns: Sequence[CandidateColumn], units: Mapping[tuple[str, str], Moved] | None = None
-) -> Weighing:
+) -> WeighedModel:
     """Give what is kept of a base model that leaves this residual, with one number of its own and no effect in it."""
     zeros = np.zeros(ROWS, np.int64)
     rows = AveragedRows((), ("pads",), zeros, zeros, np.ones(ROWS), np.array([float(ROWS)]))
@@ -49,7 +49,7 @@ def weigh(
     signs = np.random.default_rng(4).choice([-1.0, 1.0], size=(DRAWS, ROWS))
     redrawn = ((signs * left) @ every)[:, None]
     posterior = compute_posterior(statistics, columns, {})
-    return Weighing(
+    return WeighedModel(
         statistics, tuple(columns), {}, frozenset(), posterior, np.zeros(every.shape[1]), redrawn, dict(units or {})
     )
 

@@ -102,8 +102,8 @@ def _diagnose_one(
     json: bool,
     timings: bool,
 ) -> None:
-    measured = sw.load_campaign(campaign)
     _refuse_unknown(why_not, effect)
+    measured = sw.load_campaign(campaign)
     folder = out_folder(out)
     start = start_model(campaign, model, trust, effect)
     # opened first: whoever has this campaign open elsewhere hears so before minutes have passed

@@ -154,9 +154,9 @@ def _predicted_friction(final: BaseFit) -> tuple[PredictedFriction, ...]:
 
 def _limits(state: Search, verdict: Verdict) -> dict[str, UpperLimit]:
     """Return how large each effect that is not named can be at most; of a tie all are named."""
-    if state.weighing is None:
+    if state.weighed is None:
         return {}
-    return compute_upper_limits(state.weighing, state.terms, verdict.effects)
+    return compute_upper_limits(state.weighed, state.terms, verdict.effects)
 
 
 def _component(state: Search, verdict: Verdict) -> str:

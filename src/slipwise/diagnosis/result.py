@@ -151,8 +151,8 @@ class Diagnosis(Drawn, Tabular):
         Args:
             twins: campaigns with the same model, motions and noise that are looked at for each effect.
         """
-        weighing = self.search.weighing
-        return self if weighing is None else replace(self, power=compute_power(weighing, twins))
+        weighed = self.search.weighed
+        return self if weighed is None else replace(self, power=compute_power(weighed, twins))
 
     @one_thread_algebra()
     def with_why_not(self, *names: str) -> "Diagnosis":
@@ -168,12 +168,12 @@ class Diagnosis(Drawn, Tabular):
         return replace(self, why_not=(*self.why_not, *found))
 
     def explain_rivals(self, most: int = 2) -> list[WhyNot]:
-        """Return why the best of what was refitted in the place of a named effect was not named.
+        """Return why the best of what was refitted was not named: in the place of what was, or alone.
 
         Args:
             most: rivals at most.
         """
-        return explain_rivals(self.search, self.verdict.effects, most) if self.added else []
+        return explain_rivals(self.search, self.verdict.effects, most)
 
     def ladder(self) -> Ladder:
         """Return the ladder that the diagnosis has climbed already."""

@@ -205,20 +205,20 @@ def _find_reason(state: Search, named: Sequence[str], effect: str, *, tested: bo
 
 
 def explain_rivals(state: Search, named: Sequence[str], most: int) -> list[WhyNot]:
-    """Say why the best of what was refitted in the place of a named effect was not named; nothing is fitted anew.
+    """Say why the best of what was refitted was not named; nothing is fitted anew.
 
     Args:
         state: of the finished search.
-        named: what the verdict names.
+        named: what the verdict names; each rival stands in the place of one of these, or alone where nothing is named.
         most: rivals at most.
     """
-    best, out = state.best, dict[str, WhyNot]()
+    best, out = state.best if named else state.path[0], dict[str, WhyNot]()
     for h in sorted(state.tried, key=lambda h: -compute_score(best.summary, h.summary)):
         own = [n for n in h.names if n not in best.names]
         gone = [n for n in best.names if n not in h.names and n in named]
-        told = len(own) == len(gone) == 1 and own[0] not in (*named, *out) and not h.solution.residuals.is_empty
-        if told and len(out) < most:
-            out[own[0]] = _compare(state, named, own[0], gone[0], best, h, None)
+        told = len(own) == 1 and len(gone) == min(len(named), 1) and own[0] not in (*named, *out)
+        if told and len(out) < most and not h.solution.residuals.is_empty:
+            out[own[0]] = _compare(state, named, own[0], "".join(gone), best, h, None)
     return list(out.values())
 
 
@@ -275,14 +275,14 @@ def _find_most_alike(state: Search, term: Term, named: Sequence[Term]) -> str:
     """Return the name of the effect whose column is most like one of a term's; the first where no product tells."""
     if not named:
         return ""
-    if state.weighing is None:
+    if state.weighed is None:
         return named[0].effect.name
-    weighing = state.weighing
-    whole = compute_left_by_base(weighing.statistics).sum(axis=0)
+    weighed = state.weighed
+    whole = compute_left_by_base(weighed.statistics).sum(axis=0)
     size = np.sqrt(np.maximum(np.diag(whole), 1e-300))
-    own = [i for i, c in enumerate(weighing.columns) if c.label == term.label]
+    own = [i for i, c in enumerate(weighed.columns) if c.label == term.label]
     likeness: dict[str, float] = {t.effect.name: 0.0 for t in named}
-    for i, c in enumerate(weighing.columns):
+    for i, c in enumerate(weighed.columns):
         if c.form == OF_MODEL and c.effect in likeness and own:
             alike = float(np.max(np.abs(whole[i, own]) / (size[i] * size[own])))
             likeness[c.effect] = max(likeness[c.effect], alike)

@@ -23,7 +23,7 @@ from slipwise.selection.posterior import Posterior
 from slipwise.selection.proposals import LIKELY, compute_chances_of_large
 from slipwise.selection.statistics import compute_left_by_base
 from slipwise.selection.twins import compute_posterior_of_twin, make_twin
-from slipwise.selection.weighing import DRAWS, Weighing
+from slipwise.selection.weighed_model import DRAWS, WeighedModel
 
 #: Twins of each effect.
 TWINS = 16
@@ -54,28 +54,28 @@ class EffectPower:
         return {"twins": self.twins, "seen": self.seen, "named": self.named, "taken_for": dict(self.taken_for)}
 
 
-def compute_power(weighing: Weighing, twins: int = TWINS) -> dict[str, EffectPower]:
+def compute_power(weighed: WeighedModel, twins: int = TWINS) -> dict[str, EffectPower]:
     """Return effect -> what would be said of it, for every candidate that the model has not.
 
     Args:
-        weighing: of the campaign.
+        weighed: of the campaign.
         twins: of each effect, `DRAWS` at most.
     """
-    present = {c.effect for c in weighing.columns if c.form == OF_MODEL}
+    present = {c.effect for c in weighed.columns if c.form == OF_MODEL}
     members: dict[str, list[int]] = {}
-    for place, c in enumerate(weighing.columns):
+    for place, c in enumerate(weighed.columns):
         if c.effect not in present and c.form != OF_MODEL:
             members.setdefault(c.effect, []).append(place)
     asked = [(name, k) for name in members for k in range(min(twins, DRAWS))]
-    shown = _compute_shown(weighing)
+    shown = _compute_shown(weighed)
 
     def ask(k: int) -> tuple[str, ...]:
         name, number = asked[k]
         places = members[name]
         place = places[number * len(places) // min(twins, DRAWS) if len(places) > twins else number % len(places)]
-        sign = -1.0 if weighing.columns[place].two_sided and number % 2 else 1.0
-        posterior = compute_posterior_of_twin(weighing, make_twin(weighing, place, sign, number))
-        return decide_what_is_said(weighing, posterior, shown, present)
+        sign = -1.0 if weighed.columns[place].two_sided and number % 2 else 1.0
+        posterior = compute_posterior_of_twin(weighed, make_twin(weighed, place, sign, number))
+        return decide_what_is_said(weighed, posterior, shown, present)
 
     answers: dict[str, list[tuple[str, ...]]] = {}
     for (name, _), said in zip(asked, on_every_core(ask, len(asked)), strict=True):
@@ -89,11 +89,13 @@ def _count(name: str, said: Sequence[tuple[str, ...]]) -> EffectPower:
     return EffectPower(name, len(said), seen, first, dict(others.most_common()))
 
 
-def decide_what_is_said(weighing: Weighing, posterior: Posterior, shown: Array, present: set[str]) -> tuple[str, ...]:
+def decide_what_is_said(
+    weighed: WeighedModel, posterior: Posterior, shown: Array, present: set[str]
+) -> tuple[str, ...]:
     """Return the effects that would be named or listed beside those of the model, the one that matters most first.
 
     Args:
-        weighing: of the campaign.
+        weighed: of the campaign.
         posterior: of its twin.
         shown: (K,) what the base fit leaves of one limit of each column, all samples together [noise variance].
         present: effects of the model, of which nothing is asked.
@@ -103,9 +105,9 @@ def decide_what_is_said(weighing: Weighing, posterior: Posterior, shown: Array, 
     for effect, chance in zip(posterior.effects, compute_chances_of_large(posterior), strict=True):
         likely[effect] = max(likely.get(effect, 0.0), float(chance))
     strongest: dict[str, float] = {}
-    for c, square in zip(weighing.columns, shown, strict=True):
+    for c, square in zip(weighed.columns, shown, strict=True):
         strongest[c.effect] = max(strongest.get(c.effect, 0.0), float(square))
-    gauges = {c.effect for c in weighing.columns if c.gauge}
+    gauges = {c.effect for c in weighed.columns if c.gauge}
     chances, out = load_calibration(), list[tuple[bool, float, str]]()
     for name in sorted(likely, key=lambda e: -likely[e])[:_MOST]:
         if name in present or likely[name] < LIKELY:
@@ -135,8 +137,8 @@ def _evidence(of: Inclusion, errors: float, *, gauge: bool) -> dict[str, float]:
     }
 
 
-def _compute_shown(weighing: Weighing) -> Array:
+def _compute_shown(weighed: WeighedModel) -> Array:
     """Return what the base fit leaves of one limit of each column, all samples together (K,) [noise variance]."""
-    left = compute_left_by_base(weighing.statistics)
-    squares = np.einsum("rii,r->i", left, np.maximum(weighing.statistics.samples, 1.0))
+    left = compute_left_by_base(weighed.statistics)
+    squares = np.einsum("rii,r->i", left, np.maximum(weighed.statistics.samples, 1.0))
     return np.maximum(squares, 0.0)

@@ -13,7 +13,7 @@ from slipwise.selection.explained_alone import ExplainedAlone
 from slipwise.selection.hypothesis import Hypothesis, polish, refit
 from slipwise.selection.inclusion import Inclusion
 from slipwise.selection.jacobian_memory import ROOM, complete_jacobian, drop_jacobian, lightened, size_of
-from slipwise.selection.weighing import Weighing
+from slipwise.selection.weighed_model import WeighedModel
 
 #: Hypotheses of one kind that are fitted to the end.
 _POLISHED = 2
@@ -34,7 +34,7 @@ class Search:
         unexplained: relation -> share of what the final model leaves that small imperfections do not explain [1].
         final_refit: the hypothesis at which the search ended, refitted with the noise of its own law; None for the
             base.
-        weighing: of which the inclusions are; None where no posterior was computed.
+        weighed: of which the inclusions are; None where no posterior was computed.
     """
 
     base: BaseFit
@@ -46,7 +46,7 @@ class Search:
     inclusions: Mapping[str, Inclusion] = field(default_factory=dict[str, Inclusion])
     unexplained: Mapping[str, float] = field(default_factory=dict[str, float])
     final_refit: Hypothesis | None = None
-    weighing: Weighing | None = None
+    weighed: WeighedModel | None = None
 
     @property
     def final(self) -> Hypothesis:

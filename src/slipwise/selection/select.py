@@ -21,7 +21,7 @@ from slipwise.selection.plainer import plainest
 from slipwise.selection.posterior import Prior
 from slipwise.selection.proposals import ProposedModel, compute_unexplained, list_likely, propose
 from slipwise.selection.search_state import Search, try_all, try_one
-from slipwise.selection.weighing import keep_weighing
+from slipwise.selection.weighed_model import keep_weighed_model
 
 #: A term that takes another's place in so large a share of the posterior is refitted in its place [1].
 _RIVALS = 0.1
@@ -88,12 +88,10 @@ def _select(prepared: Prepared, base: BaseFit, own: tuple[Effect, ...], tell: Ca
     origin = make_base_hypothesis(base)
     alone = _explain_alone(proposal, candidates)
     unexplained = compute_unexplained(proposal)
-    weighing = keep_weighing(
+    weighed = keep_weighed_model(
         proposal.linearisation, proposal.posterior, proposal.units, frozenset(list_exclusions(candidates))
     )
-    state = Search(
-        base, cannot, candidates, (), (origin,), alone, _inclusions(proposal), unexplained, weighing=weighing
-    )
+    state = Search(base, cannot, candidates, (), (origin,), alone, _inclusions(proposal), unexplained, weighed=weighed)
     starts = list_likely(proposal.linearisation, candidates, proposal.posterior)
     tell("refitting", 0.7)
     if starts:

@@ -11,7 +11,7 @@ import numpy as np
 from slipwise.arrays import Array
 from slipwise.selection.posterior import Effort, Posterior, compute_posterior
 from slipwise.selection.statistics import Statistics, compute_left_by_base
-from slipwise.selection.weighing import Weighing
+from slipwise.selection.weighed_model import WeighedModel
 
 #: Of one twin among many.
 _EFFORT = Effort(chains=2, sweeps=20, draws=100, rounds=2)
@@ -30,33 +30,33 @@ class Twin:
     sizes: Array
 
 
-def make_twin(weighing: Weighing, place: int, size: float, draw: int) -> Twin:
+def make_twin(weighed: WeighedModel, place: int, size: float, draw: int) -> Twin:
     """Return a twin with one column in it.
 
     Args:
-        weighing: of the campaign.
+        weighed: of the campaign.
         place: of the column among those of the candidates.
         size: of it [limits].
         draw: number of the noise.
     """
-    sizes = np.zeros(weighing.statistics.products.shape[1])
-    sizes[weighing.statistics.base + place] = size
+    sizes = np.zeros(weighed.statistics.products.shape[1])
+    sizes[weighed.statistics.base + place] = size
     return Twin(draw, sizes)
 
 
-def compute_posterior_of_twin(weighing: Weighing, twin: Twin) -> Posterior:
+def compute_posterior_of_twin(weighed: WeighedModel, twin: Twin) -> Posterior:
     """Return what a posterior says of a twin."""
-    statistics = compute_statistics_of_twin(weighing, twin)
-    return compute_posterior(statistics, weighing.columns, weighing.tolerances, weighing.apart, _EFFORT)
+    statistics = compute_statistics_of_twin(weighed, twin)
+    return compute_posterior(statistics, weighed.columns, weighed.tolerances, weighed.apart, _EFFORT)
 
 
-def compute_statistics_of_twin(weighing: Weighing, twin: Twin) -> Statistics:
+def compute_statistics_of_twin(weighed: WeighedModel, twin: Twin) -> Statistics:
     """Return the products with the residual of a twin.
 
     What a model lacks stands in its residual with the opposite sign of its column.
     """
-    of, noise = weighing.statistics, weighing.noise[twin.draw]
-    inside = -(weighing.own + twin.sizes)
+    of, noise = weighed.statistics, weighed.noise[twin.draw]
+    inside = -(weighed.own + twin.sizes)
     pulls = noise + of.products @ inside
     squares = of.fitted + 2.0 * noise @ inside + np.einsum("i,kij,j->k", inside, of.products, inside)
     beside = twin.sizes[of.base :]

@@ -19,7 +19,7 @@ from slipwise.relations.parameters import Term
 from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.initial_grid import strengths
 from slipwise.selection.posterior import Prior, list_trifles, make_normal_system
-from slipwise.selection.weighing import Weighing
+from slipwise.selection.weighed_model import WeighedModel
 
 #: Chance that a size lies below its limit [1].
 CHANCE = 0.95
@@ -73,41 +73,45 @@ class _Background:
     trifles: Array
 
 
-def compute_upper_limits(weighing: Weighing, terms: Sequence[Term], named: Iterable[str] = ()) -> dict[str, UpperLimit]:
+def compute_upper_limits(
+    weighed: WeighedModel, terms: Sequence[Term], named: Iterable[str] = ()
+) -> dict[str, UpperLimit]:
     """Return effect -> how large it can be at most, of what was not named, the largest first.
 
     Args:
-        weighing: of the campaign.
+        weighed: of the campaign.
         terms: candidates.
         named: effects of which no limit is asked.
     """
     left_out, of = set(named), {t.label: t for t in terms}
-    background = _make_background(weighing)
+    background = _make_background(weighed)
     rng = np.random.default_rng(0)
     best: dict[str, UpperLimit] = {}
-    for label in dict.fromkeys(c.label for c in weighing.columns):
-        places = np.array([i for i, c in enumerate(weighing.columns) if c.label == label])
-        effect = weighing.columns[places[0]].effect
+    for label in dict.fromkeys(c.label for c in weighed.columns):
+        places = np.array([i for i, c in enumerate(weighed.columns) if c.label == label])
+        effect = weighed.columns[places[0]].effect
         if effect in left_out or label not in of:
             continue
-        drawn = _draw_with_room(weighing, background, places, rng)
-        found = _limit_of(weighing, of[label], places, drawn)
+        drawn = _draw_with_room(weighed, background, places, rng)
+        found = _limit_of(weighed, of[label], places, drawn)
         if effect not in best or found.size > best[effect].size:
             best[effect] = found
     return {found.effect: found for found in sorted(best.values(), key=lambda x: -x.size)}
 
 
-def _make_background(weighing: Weighing) -> _Background:
-    large, base, trifles = weighing.posterior.strengths, weighing.statistics.base, list_trifles(weighing.columns)
-    system = make_normal_system(weighing.statistics, weighing.tolerances, weighing.posterior.level, trifles)
+def _make_background(weighed: WeighedModel) -> _Background:
+    large, base, trifles = weighed.posterior.strengths, weighed.statistics.base, list_trifles(weighed.columns)
+    system = make_normal_system(weighed.statistics, weighed.tolerances, weighed.posterior.level, trifles)
     covariance = np.linalg.inv(system.regular).astype(np.float64)
     mean = (covariance @ system.pull)[base:] - large @ (covariance @ system.whole[:, base:])[base:].T
     return _Background(large, mean, covariance[base:, base:], trifles)
 
 
-def _draw_with_room(weighing: Weighing, of: _Background, places: NDArray[np.int64], rng: np.random.Generator) -> Array:
+def _draw_with_room(
+    weighed: WeighedModel, of: _Background, places: NDArray[np.int64], rng: np.random.Generator
+) -> Array:
     """Draw the sizes (n, k) of one candidate's columns, which may be as large as what matters usually is [limits]."""
-    forms = len({weighing.columns[i].form for i in places})
+    forms = len({weighed.columns[i].form for i in places})
     room = Prior().large[0] / np.sqrt(forms)
     own = of.covariance[np.ix_(places, places)]
     known = np.linalg.inv(0.5 * (own + own.T))
@@ -119,20 +123,20 @@ def _draw_with_room(weighing: Weighing, of: _Background, places: NDArray[np.int6
     return of.large[:, places] + middle.T + spread
 
 
-def _limit_of(weighing: Weighing, term: Term, places: NDArray[np.int64], drawn: Array) -> UpperLimit:
+def _limit_of(weighed: WeighedModel, term: Term, places: NDArray[np.int64], drawn: Array) -> UpperLimit:
     own: dict[str, list[int]] = {}
     for k, place in enumerate(places):
-        own.setdefault(weighing.columns[place].strength, []).append(k)
-    amounts = {name: _amount([weighing.columns[places[k]] for k in at], drawn[:, at]) for name, at in own.items()}
+        own.setdefault(weighed.columns[place].strength, []).append(k)
+    amounts = {name: _amount([weighed.columns[places[k]] for k in at], drawn[:, at]) for name, at in own.items()}
     size = float(np.quantile(np.sqrt(sum(a**2 for a in amounts.values())), CHANCE))
     ends = {name: float(np.quantile(np.abs(a), CHANCE)) for name, a in amounts.items()}
     name = max(ends, key=lambda n: ends[n])
     spread = float(np.std(amounts[name]))
-    column = weighing.columns[places[own[name][0]]]
+    column = weighed.columns[places[own[name][0]]]
     # of a law that takes another's place nothing is zero where it is absent
     of = [term.effect.parameter(name)] if name else strengths(term.effect)[:1]
     unit = column.unit if name else column.unit * sum(column.values[p.name] - float(p.neutral or 0.0) for p in of)
-    known = (weighing.units.get((term.label, n)) for n in (*(p.name for p in of), ""))
+    known = (weighed.units.get((term.label, n)) for n in (*(p.name for p in of), ""))
     moved = next((m for m in known if m is not None and m.share > 0.0), None)
     return UpperLimit(
         effect=term.effect.name,

@@ -11,7 +11,10 @@ from slipwise.cli.diagnosis_files import _record
 from slipwise.cli.model_edit import tell_change
 from slipwise.diagnosis.unknown_surface import leftover
 from slipwise.record import Record
+from slipwise.selection.power import EffectPower
+from slipwise.selection.upper_limits import UpperLimit
 from slipwise.session.model_change import ModelChange
+from slipwise.view.words.limit_words import limit_rows, limit_sentence, power_rows, power_words
 
 
 def without_table(campaign: Campaign) -> Campaign:
@@ -76,3 +79,52 @@ def test_an_edited_model_says_which_error_it_is_told_by(held_out: bool, title: s
     changed = ModelChange("heating added", base().model, {"pads": 4.0}, {"pads": 1.0})
     tell_change(changed, held_out=held_out)
     assert capsys.readouterr().out.startswith(title)
+
+
+def test_an_effect_that_is_none_is_refused_before_anything_is_read(slipwise, tmp_path):
+    code, _, err = slipwise("diagnose", tmp_path / "nowhere", "--why-not", "heatin")
+    assert code == 2 and "did you mean heating" in err
+
+
+def test_questions_about_one_campaign_are_not_asked_of_several(slipwise, tmp_path):
+    code, _, err = slipwise("diagnose", tmp_path / "a", tmp_path / "b", "--power")
+    assert code == 2 and "--power and --why-not ask about one campaign" in err
+
+
+def limit(name, size, *, measured=True):
+    """The limit of an effect of the catalogue with the strength "share", 2 % of which is what matters."""
+    moved = {"peak_slip": -1e-4 * size, "energy": 20.0 * size, "largest_load": 50.0 * size}
+    return UpperLimit(name, name, size, "share", 0.02 * size, "1", moved, measured)
+
+
+def test_complete_says_what_it_could_have_missed(capsys):
+    found = diagnosed(searched(base()))
+    assert found.verdict.kind == "complete"
+    limits = {"girder_bending": limit("girder_bending", 4.0, measured=False), "heating": limit("heating", 0.5)}
+    _tell(replace(found, limits=limits))
+    assert "It could have missed, at a size that matters: girder_bending." in " ".join(capsys.readouterr().out.split())
+    _tell(replace(found, limits={"heating": limit("heating", 0.5)}))
+    said = " ".join(capsys.readouterr().out.split())
+    assert "Each of the 1 other effects that were tested is below what matters (95 %)." in said
+
+
+def test_a_limit_is_read_in_millimetres_kilonewton_centimetres_and_kilonewtons():
+    found = replace(diagnosed(searched(base())), limits={"heating": limit("heating", 0.5)})
+    [row] = limit_rows(found)
+    assert row["peak slip [mm]"] == "0.05" and row["energy [kN cm]"] == "1" and row["largest load [kN]"] == "0.025"
+    assert row["of what matters"] == "0.5" and row["at most"].startswith("share 0.01")
+    assert limit_rows(found, brief=True) == []
+    words = limit_sentence(None, found.limits["heating"].as_json())
+    assert words.startswith("At most 0.5 times what matters (95 %): 0.05 mm of peak slip, 1 kN cm of energy")
+    assert limit_sentence(None, limit("heating", 4.0, measured=False).as_json()) == "This campaign says nothing of it."
+
+
+def test_power_is_told_in_a_sentence_and_a_table():
+    power = {
+        "run_in": EffectPower("run_in", 20, 19, 18, {}),
+        "heating": EffectPower("heating", 20, 1, 1, {"run_in": 3}),
+    }
+    found = replace(diagnosed(searched(base())), power=power)
+    assert "run_in would be seen nearly always; heating nearly never" in power_words(found)
+    assert [row["seen"] for row in power_rows(found)] == ["95 %", "5 %"]
+    assert power_rows(found)[1]["else taken for"] == "run_in (15 %)"

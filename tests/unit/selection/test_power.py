@@ -5,12 +5,12 @@ import pytest
 
 from slipwise.selection.power import compute_power
 from slipwise.selection.twins import compute_statistics_of_twin, make_twin
-from slipwise.selection.weighing import Weighing
+from slipwise.selection.weighed_model import WeighedModel
 from weighed import column, noise, waves, weigh
 
 
 @pytest.fixture(scope="module")
-def weighing() -> Weighing:
+def weighed() -> WeighedModel:
     """Columns of two floors a limit, of a tenth of one, and two that are nearly one."""
     x = waves(5)
     alike = x[:, 3] + 0.01 * x[:, 4]
@@ -18,21 +18,21 @@ def weighing() -> Weighing:
     return weigh(noise(), [column(name, values) for name, values in made.items()])
 
 
-def test_a_twin_of_nothing_has_the_residual_of_the_campaign_again(weighing: Weighing) -> None:
-    found = compute_statistics_of_twin(weighing, make_twin(weighing, 0, 0.0, 3))
-    assert np.allclose(found.pulls, weighing.noise[3])
-    assert np.allclose(found.squares, weighing.statistics.squares)
+def test_a_twin_of_nothing_has_the_residual_of_the_campaign_again(weighed: WeighedModel) -> None:
+    found = compute_statistics_of_twin(weighed, make_twin(weighed, 0, 0.0, 3))
+    assert np.allclose(found.pulls, weighed.noise[3])
+    assert np.allclose(found.squares, weighed.statistics.squares)
 
 
-def test_what_a_twin_holds_stands_in_its_residual_the_other_way_round(weighing: Weighing) -> None:
-    found = compute_statistics_of_twin(weighing, make_twin(weighing, 0, 2.0, 0))
-    base = weighing.statistics.base
-    expected = weighing.noise[0][0, base] - 2.0 * weighing.statistics.products[0, base, base]
+def test_what_a_twin_holds_stands_in_its_residual_the_other_way_round(weighed: WeighedModel) -> None:
+    found = compute_statistics_of_twin(weighed, make_twin(weighed, 0, 2.0, 0))
+    base = weighed.statistics.base
+    expected = weighed.noise[0][0, base] - 2.0 * weighed.statistics.products[0, base, base]
     assert found.pulls[0, base] == pytest.approx(expected)
 
 
-def test_power_tells_what_would_be_seen_and_for_what_it_would_be_taken(weighing: Weighing) -> None:
-    power = compute_power(weighing, 6)
+def test_power_tells_what_would_be_seen_and_for_what_it_would_be_taken(weighed: WeighedModel) -> None:
+    power = compute_power(weighed, 6)
     assert power["heating"].seen == power["heating"].named == power["heating"].twins == 6
     assert power["run_in"].seen == 0
     pair = power["guide_drag"]

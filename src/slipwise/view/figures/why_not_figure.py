@@ -8,6 +8,7 @@ from slipwise.diagnosis.why_not import Instant, WhyNot
 from slipwise.selection.hypothesis import Hypothesis
 from slipwise.units import convert
 from slipwise.view.figures.canvas import new_figure
+from slipwise.view.figures.diagnosis_figures import under_axis
 from slipwise.view.figures.panels import AFTER, BEFORE, error_bars, stacked_panels
 from slipwise.view.figures.style import EXPECTED, INK
 from slipwise.view.words.numbers import usual_unit
@@ -46,7 +47,7 @@ def _balances_figure(found: WhyNot, *, narrow: bool) -> Figure:
             worst[e.relation] = max(before, e.named), max(after, e.instead)
     without = f"with {found.replaced}" if found.replaced else "without it"
     places = error_bars(axes, list(worst.values()), (without, f"with {found.effect}"))
-    axes.set_xticks(places, [NAMES[r][0] for r in worst], rotation=90 if narrow else 15, fontsize=8.0)
+    axes.set_xticks(places, [under_axis(r) for r in worst], rotation=90 if narrow else 0, fontsize=8.0)
     axes.set_ylabel("error of the worst run / floor")
     figure.legend(loc="outside upper right", ncols=1 if narrow else 3)
     return figure

@@ -3,13 +3,14 @@
 from math import isfinite
 
 from slipwise.comparison.component_level import NAMES
+from slipwise.diagnosis.indistinguishable import list_known_effects
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.why_not import WhyNot
 from slipwise.selection.upper_limits import CHANCE
 from slipwise.view.figures.why_not_figure import why_not_figure
 from slipwise.view.pages.html import Piece, Section, bullets, details, figure, paragraph, table
 from slipwise.view.words.diagnosis_words import floors
-from slipwise.view.words.limit_words import limit_rows, missed_words, power_rows, power_words
+from slipwise.view.words.limit_words import limit_rows, limit_sentence, missed_words, power_rows, power_words
 from slipwise.view.words.why_not_words import why_not_words
 
 #: Rows of a table of errors: runs and balances in which an effect differs most.
@@ -29,6 +30,8 @@ def limits_section(found: Diagnosis) -> Section | None:
         "that size. Where it says `not told`, the campaign says nothing of it."
     )
     brief = limit_rows(found, brief=True)
+    if found.verdict.leftover == "unknown":
+        words += " Something is missing here that has no name: the limits hold as far as it resembles none of these."
     pieces: list[Piece] = [paragraph(missed_words(found)), paragraph(words)]
     pieces += [table(brief, "May be there at a size that matters")] if brief else []
     pieces.append(details(f"All {len(rows)} effects that were not named", [table(rows)]))
@@ -50,11 +53,18 @@ def why_not_pieces(found: Diagnosis) -> list[Piece]:
     """Return a part for each effect that was asked about, and for the nearest rivals, that opens on a click."""
     asked = {one.effect for one in found.why_not}
     every = [*found.why_not, *(one for one in found.explain_rivals() if one.effect not in asked)]
-    return [details(f"Why not {one.effect}?", _pieces(one)) for one in every]
+    known = list_known_effects(found.search)
+    out: list[Piece] = []
+    for one in every:
+        words = why_not_words(one)
+        if one.effect in found.limits:
+            words.append(limit_sentence(known.get(one.effect), found.limits[one.effect].as_json()))
+        out.append(details(f"Why not {one.effect}?", [bullets(words), *_pieces(one)]))
+    return out
 
 
 def _pieces(found: WhyNot) -> list[Piece]:
-    pieces: list[Piece] = [bullets(why_not_words(found))]
+    pieces: list[Piece] = []
     picture = why_not_figure(found)
     if picture is not None:
         if found.instants:

@@ -32,7 +32,8 @@ def why_not_words(found: WhyNot) -> list[str]:
             out.append(f"{name} and {named} cannot be in one model.")
     else:
         fall = f"from {floors(worst['base'])} to {floors(worst['instead'])} noise floors {error}"
-        out.append(f"{name} alone takes the error {fall}; it would be {_size_words(found)}, and {_gain_words(found)}.")
+        size = f" it would be {_size_words(found)}, and" if isfinite(found.size) else ""
+        out.append(f"{name} alone takes the error {fall};{size} {_gain_words(found)}.")
     return out
 
 

@@ -22,7 +22,7 @@ _STRETCHES, DRAWS = 16, 20
 
 
 @dataclass(frozen=True)
-class Weighing:
+class WeighedModel:
     """A final model with everything beside it, as products.
 
     Attributes:
@@ -47,12 +47,12 @@ class Weighing:
     units: Mapping[tuple[str, str], Moved]
 
 
-def keep_weighing(
+def keep_weighed_model(
     here: Linearisation,
     posterior: Posterior,
     units: Mapping[tuple[str, str], Moved],
     apart: frozenset[tuple[str, str]],
-) -> Weighing:
+) -> WeighedModel:
     """Keep of a linearisation and its posterior what later questions need.
 
     Args:
@@ -70,7 +70,7 @@ def keep_weighing(
         at = np.flatnonzero(here.rows.relation == k)
         noise[:, k] = (signs[:, at] * here.fitted[at]).astype(np.float32) @ every[at]
     bare = tuple(replace(c, column=np.zeros(0, np.float32)) for c in here.columns)
-    return Weighing(here.statistics, bare, here.tolerances, apart, posterior, own, noise, units)
+    return WeighedModel(here.statistics, bare, here.tolerances, apart, posterior, own, noise, units)
 
 
 def _draw_signs(rows: AveragedRows) -> Array:
