@@ -82,9 +82,9 @@ def propose(base: BaseFit, terms: Sequence[Term], limits: Materiality) -> Propos
     origin = make_base_hypothesis(base)
     whole = fit_whole(base, terms)
     raw = [*compute_raw_columns(base, list_forms(base, terms), rows), *compute_columns_of_fits(base, whole, rows)]
-    most = _find_runs_of_most(raw, rows)
+    most = find_runs_of_most(raw, rows)
     units = compute_units(base, terms, whole, limits, most)
-    here = linearise(base, origin, rows, _in_units(raw, units, rows), limits)
+    here = linearise(base, origin, rows, bring_to_units(raw, units, rows), limits)
     here, posterior = _weighed(base, terms, here, limits, most)
     first = here
     for _ in range(_ROUNDS if base.objective.balanced else _STEPS):
@@ -155,7 +155,7 @@ def _weighed(
     return here, posterior
 
 
-def _find_runs_of_most(raw: Sequence[CandidateColumn], rows: AveragedRows) -> dict[str, int]:
+def find_runs_of_most(raw: Sequence[CandidateColumn], rows: AveragedRows) -> dict[str, int]:
     """Return label -> place of the fitted run in which a candidate does most, where it does much less in the last."""
     runs = np.unique(rows.run)
     out: dict[str, int] = {}
@@ -313,10 +313,10 @@ def _linearised_again(
     whole = fit_whole(fit, [t for t in beside if t.label in told], once=True)
     raw = [*compute_raw_columns(fit, list_forms(fit, anew), rows), *compute_columns_of_fits(fit, whole, rows)]
     every = {**units, **compute_units_of_fits(fit, whole, limits)}
-    return linearise(base, found, rows, [*kept, *_in_units(raw, every, rows)], limits)
+    return linearise(base, found, rows, [*kept, *bring_to_units(raw, every, rows)], limits)
 
 
-def _in_units(
+def bring_to_units(
     raw: Sequence[CandidateColumn], units: Mapping[tuple[str, str], float], rows: AveragedRows
 ) -> list[CandidateColumn]:
     """Bring columns to units of materiality, other forms in proportion to what they change directly."""
