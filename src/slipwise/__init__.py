@@ -47,6 +47,8 @@ if TYPE_CHECKING:
     from slipwise.model.file import load_model, save_model
     from slipwise.motion import TableMotion, load_motion
     from slipwise.params import Parameter
+    from slipwise.planning.plan import plan
+    from slipwise.planning.result import Plan
     from slipwise.record import Record, read_record, write_record
     from slipwise.session.model_change import ModelChange, add, remove
     from slipwise.session.session import Session
@@ -81,6 +83,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "add": ("session.model_change", "add"),
     "remove": ("session.model_change", "remove"),
     "next_test": ("design.next_test", "next_test"),
+    "plan": ("planning.plan", "plan"),
     "read_record": ("record", "read_record"),
     "write_record": ("record", "write_record"),
     "quantity": ("units", "quantity"),
@@ -97,6 +100,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "ModelChange": ("session.model_change", "ModelChange"),
     "NextTest": ("design.next_test", "NextTest"),
     "Parameter": ("params", "Parameter"),
+    "Plan": ("planning.result", "Plan"),
     "Record": ("record", "Record"),
     "Replay": ("simulation.simulator", "Replay"),
     "Session": ("session.session", "Session"),
@@ -129,6 +133,7 @@ __all__ = [
     "ModelChange",
     "NextTest",
     "Parameter",
+    "Plan",
     "Record",
     "Replay",
     "Session",
@@ -159,6 +164,7 @@ __all__ = [
     "next_test",
     "paper",
     "pier_top",
+    "plan",
     "quantity",
     "read_record",
     "remove",

@@ -19,6 +19,7 @@ from slipwise.cli import (
     model_edit,
     next_test,
     paper,
+    plan,
     replay,
     view,
     workbench,
@@ -40,6 +41,7 @@ for command in (
 ):  # fmt: skip
     app.command()(command)
 app.command("next")(next_test.next_motion)
+app.command()(plan.plan)
 app.command()(bearing.bearing)
 for command in (
     ensemble.ensemble, bench.bench, paper.paper, view.view, catalogue.rigs, catalogue.channels, catalogue.motions,

@@ -18,7 +18,7 @@ from slipwise.evidence.calibration import Calibration
 #: What is more likely than this to be there and to matter is named, and so is a rival [1].
 EVEN_ODDS = 0.5
 #: What does not matter is listed where it is likelier than this to be there: nobody asked for it [1].
-_LISTED = 0.9
+LISTED = 0.9
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ def decide(
     sure = {name: chances.present(of) for name, of in effects.items()}
     both = {name: chances.matters(of) * float(expit(of["inclusion"])) for name, of in effects.items()}
     named = tuple(name for name in effects if both[name] >= EVEN_ODDS)
-    minor = tuple(name for name in effects if sure[name] >= _LISTED and name not in named)
+    minor = tuple(name for name in effects if sure[name] >= LISTED and name not in named)
     left = is_left(rest, least)
     exact = chances.family(rest) if left else 1.0
     if left and not named:

@@ -162,7 +162,7 @@ def _some_states(specimen: Specimen) -> BalanceStates:
         return rng.standard_normal((_SAMPLES, *shape))
 
     return BalanceStates(
-        time=_STEP * np.arange(_SAMPLES),
+        time=np.linspace(0.0, _STEP * (_SAMPLES - 1), _SAMPLES),
         specimen=specimen,
         slip=0.01 * noise(2),
         velocity=0.1 * noise(2),

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from slipwise.evidence.decision import EVEN_ODDS
+from slipwise.evidence.calibration import load_calibration
 from slipwise.planning.planned_columns import Allowed, PlannedColumns, add_motions, restrict
 from slipwise.selection.columns import CandidateColumn
-from slipwise.selection.twins import draw_pulls, prepare_weighing, weigh
+from slipwise.selection.twins import decide_twins, draw_pulls, prepare_weighing, weigh
 
 #: Campaigns that are drawn of each effect.
 TWINS = 40
@@ -29,8 +29,8 @@ class Chance:
         unit: SI unit.
         possible: whether the parameter may be so large; if not, the effect does not matter in these motions.
         least: size from which it would be large enough to be named [limits]; `inclusion.SEEN` floors of a relation.
-        seen: chance that anything at all is said to be missing [1].
-        named: chance that it is named [1].
+        seen: chance that an effect is said to be there, as one that matters or as one that does not [1].
+        named: chance that it is named as one that matters [1].
         taken_for: other effects that are named in its place, and how often [1].
     """
 
@@ -80,18 +80,15 @@ def compute_chances(
     kept = [planned.columns[k] for k in allowed.columns]
     weighing = prepare_weighing(statistics, kept, planned.tolerances)
     of = {t.label: t for t in planned.terms}
-    labels = list(dict.fromkeys(weighing.labels))
-    effects = list(dict.fromkeys(c.effect for c in kept))
-    members = np.array([[of[label].effect.name == effect for effect in effects] for label in labels], float)
-    rng = np.random.default_rng(0)
+    effects = {c.label: c.effect for c in kept}
+    calibration, rng = load_calibration(), np.random.default_rng(0)
     out = []
     for place in _list_planted(kept, gauges=gauges):
         column = kept[place]
-        chances = weigh(weighing, draw_pulls(weighing, place, 1.0, TWINS, rng))
-        matters = np.stack([chances[label] for label in labels], axis=1) @ members
-        seen = float(np.mean(matters.sum(axis=1) >= EVEN_ODDS))
-        said = [effects[k] for k, x in zip(matters.argmax(axis=1), matters.max(axis=1), strict=True) if x >= EVEN_ODDS]
-        counts = Counter(said)
+        evidence = weigh(weighing, draw_pulls(weighing, place, 1.0, TWINS, rng))
+        said = decide_twins(weighing, evidence, effects, calibration)
+        seen = sum(bool(name) for name in said.listed) / TWINS
+        counts = Counter(name for name in said.named if name)
         named = counts.pop(column.effect, 0) / TWINS
         others = tuple((name, n / TWINS) for name, n in counts.most_common() if n / TWINS >= _LISTED)
         p = of[column.label].effect.parameter(column.strength)

@@ -19,7 +19,7 @@ from slipwise.planning.gauge_kits import Kit, Remedy, choose_set, list_kits, lis
 from slipwise.planning.planned_columns import PlannedColumns, compute_planned_columns, find_allowed
 from slipwise.planning.planned_runs import PlannedRuns, list_recorded_motions, replay_planned
 from slipwise.planning.result import GaugeSet, Plan
-from slipwise.planning.sensors import Sensors, make_usual_sensors, take_sensors
+from slipwise.planning.sensors import Sensors, make_sensors
 from slipwise.planning.structure import Structure, compute_structure, list_faults
 from slipwise.rig import Specimen, load_specimen, storey_names
 
@@ -38,7 +38,8 @@ def plan(
     budget: int | None = None,
     model: Model | Path | str | None = None,
     own: Iterable[Effect] = (),
-    sensors: Sensors | None = None,
+    rate: float | None = None,
+    corner: float | None = None,
     progress: Callable[[str, float], None] | None = None,
 ) -> Plan:
     """Say before a test what its gauges and motions would show.
@@ -52,7 +53,8 @@ def plan(
         budget: of channels: the best set within it is given too.
         model: that is replayed; the paper's law on the rig if not given.
         own: effects beside those of the catalogue.
-        sensors: rate, filter and noise; those of the campaign, or usual ones, if not given.
+        rate: of the samples [Hz]; that of the campaign, or 500 Hz, if not given.
+        corner: of the low-pass filter [Hz]; the filter of the campaign, or 100 Hz, if not given.
         progress: called with what is being done and the share done.
 
     Raises:
@@ -98,7 +100,7 @@ def plan(
             "are judged by the balances alone."
         )
     else:
-        chain = sensors or (make_usual_sensors() if campaign is None else take_sensors(campaign))
+        chain = make_sensors(campaign, rate, corner)
         made, sets, ranked = _with_chances(start, asked, sets, used, chain, campaign, untestable, tell)
     tell("done", 1.0)
     return Plan(

@@ -44,9 +44,7 @@ class PlannedColumns:
     untestable: Mapping[str, str]
 
 
-def compute_planned_columns(
-    campaign: Campaign, model: Model, tell: Callable[[str, float], None]
-) -> PlannedColumns:
+def compute_planned_columns(campaign: Campaign, model: Model, tell: Callable[[str, float], None]) -> PlannedColumns:
     """Fit a planned test and hold every effect against it, at the size that is one limit of materiality.
 
     Args:
@@ -71,9 +69,7 @@ def compute_planned_columns(
     known = {c.label for c in here.columns}
     silent = {t.effect.name for t in terms} - {t.effect.name for t in terms if t.label in known}
     untestable = {**untestable, **dict.fromkeys(sorted(silent), "changes nothing in these motions")}
-    return PlannedColumns(
-        base, rows.relations, tuple(terms), bare, _split_by_motion(here), here.tolerances, untestable
-    )
+    return PlannedColumns(base, rows.relations, tuple(terms), bare, _split_by_motion(here), here.tolerances, untestable)
 
 
 def _split_by_motion(here: Linearisation) -> tuple[Statistics, ...]:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from slipwise.display import Tabular
+from slipwise.display import Drawn, Tabular
 from slipwise.planning.chances import Chance, RankedMotion
 from slipwise.planning.gauge_kits import Remedy
 from slipwise.planning.structure import Structure
@@ -44,7 +44,7 @@ class GaugeSet:
 
 
 @dataclass(frozen=True, repr=False)
-class Plan(Tabular):
+class Plan(Drawn, Tabular):
     """A planned test.
 
     Attributes:
@@ -84,8 +84,10 @@ class Plan(Tabular):
         structure = self.planned.structure
         told, seen, _ = structure.score
         every = sum(len(f.effects) for f in structure.faults if not f.channels)
+        count = len(structure.channels)
+        counted = f"{count} channel{'' if count == 1 else 's'}"
         words = (
-            f"With {len(structure.channels)} channels {seen} of {every} effects of {self.rig} can be seen, and {told} of "
+            f"With {counted} {seen} of {every} effects of {self.rig} can be seen, and {told} of "
             "them told from whatever else may be wrong"
         )
         asked = [c for c in self.planned.of_rig if c.possible]
@@ -93,9 +95,20 @@ class Plan(Tabular):
             return f"{words}."
         likely = sum(c.named >= 0.5 for c in asked)
         return (
-            f"{words}. At the limit of materiality {likely} of {len(asked)} would be named by these "
-            f"{len(self.motions)} motions in more than half of campaigns like this one."
+            f"{words}. At the limit of materiality {likely} of {len(asked)} would be named by "
+            f"{_motions(len(self.motions))} in more than half of campaigns like this one."
         )
+
+    @property
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each effect, or fault of a gauge, with each set of gauges."""
+        out = []
+        for one in self.sets:
+            for c in one.chances:
+                about = {"gauges": one.words, "channels": len(one.channels), "effect": c.effect, "place": c.place}
+                sizes = {"parameter": c.parameter, "value": c.value, "unit": c.unit, "named_from": _named_from(c)}
+                out.append({**about, **sizes, "seen": c.seen, "named": c.named})
+        return out
 
     def as_json(self) -> dict[str, Any]:
         """Return what plan.json holds."""
@@ -127,13 +140,11 @@ class Plan(Tabular):
         return self.sentence
 
     def _rows(self) -> list[dict[str, Any]]:
-        out = []
-        for one in self.sets:
-            for c in one.chances:
-                about = {"gauges": one.words, "channels": len(one.channels), "effect": c.effect, "place": c.place}
-                sizes = {"parameter": c.parameter, "value": c.value, "unit": c.unit, "named_from": _named_from(c)}
-                out.append({**about, **sizes, "seen": c.seen, "named": c.named})
-        return out
+        return self.rows
+
+
+def _motions(count: int) -> str:
+    return "this motion" if count == 1 else f"these {count} motions"
 
 
 def _named_from(chance: Chance) -> float | None:

@@ -9,6 +9,7 @@ from slipwise.arrays import Array
 from slipwise.campaign import Campaign
 from slipwise.campaign.campaign import Logger
 from slipwise.channels import part_of
+from slipwise.errors import SettingError
 from slipwise.record import Record
 from slipwise.signals.filters import LowPass, lowpass
 
@@ -60,17 +61,30 @@ class Sensors:
         return Record(record.time[::every], out)
 
 
-def make_usual_sensors(rate: float = USUAL_RATE, corner: float = USUAL_CORNER) -> Sensors:
-    """Return the chain of a laboratory of which no records are there yet.
+def make_sensors(campaign: Campaign | None = None, rate: float | None = None, corner: float | None = None) -> Sensors:
+    """Return the chain of a campaign, or that of a laboratory of which no records are there yet.
 
     Args:
-        rate: of the samples [Hz].
-        corner: of the low-pass filter [Hz].
+        campaign: that was measured; none for a planned rig.
+        rate: of the samples in its place [Hz].
+        corner: of the low-pass filter in its place [Hz].
+
+    Raises:
+        SettingError: a rate or a corner that cannot be.
     """
-    return Sensors(1.0 / rate, Logger(every=LowPass(corner), known=True), {})
-
-
-def take_sensors(campaign: Campaign) -> Sensors:
-    """Return the chain with which a campaign was measured."""
-    noise = {name: gauge.level for name, gauge in campaign.gauges.items() if gauge.known}
-    return Sensors(campaign.runs[0].record.dt, campaign.logger, noise)
+    step = 1.0 / USUAL_RATE if campaign is None else campaign.runs[0].record.dt
+    if rate is not None:
+        if not 0.0 < rate < np.inf:
+            raise SettingError(f"a rate of {rate:g} Hz cannot be; give one above zero")
+        step = 1.0 / rate
+    logger = Logger(every=LowPass(USUAL_CORNER), known=True) if campaign is None else campaign.logger
+    if corner is not None:
+        logger = Logger(every=LowPass(corner), known=True)
+    lowest = 0.5 / step
+    if logger.every is not None and not 0.0 < logger.every.frequency < lowest:
+        raise SettingError(
+            f"a filter of {logger.every.frequency:g} Hz cannot be at {1.0 / step:g} samples a second; give one above "
+            f"zero and below {lowest:g} Hz"
+        )
+    noise = {} if campaign is None else {name: g.level for name, g in campaign.gauges.items() if g.known}
+    return Sensors(step, logger, noise)

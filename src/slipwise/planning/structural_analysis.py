@@ -64,7 +64,7 @@ def analyse_structure(incidence: Flags, broken: Flags) -> Diagnosability:
         broken: (e, f) whether an equation does not hold where there is the fault.
     """
     count = broken.shape[1]
-    detectable = broken[find_overdetermined(incidence)].any(axis=0)
+    detectable = np.asarray(broken[find_overdetermined(incidence)].any(axis=0))
     isolable = np.zeros((count, count), bool)
     alike: dict[bytes, NDArray[np.intp]] = {}
     for other in range(count):

@@ -10,9 +10,12 @@ import numpy as np
 from slipwise.channels import part_of
 from slipwise.effects import Effect
 from slipwise.planning.balance_equations import BalanceEquations, list_broken, make_incidence
-from slipwise.planning.structural_analysis import Diagnosability, analyse_structure
+from slipwise.planning.structural_analysis import Diagnosability, analyse_structure, find_overdetermined
 from slipwise.preparation.gauge_groups import find_places_of_gauges
 from slipwise.record import Record
+
+#: What an effect needs -> the equation that must check something, or no fit looks for it.
+_CHECKED_BY = {"heave": "heave", "storeys": "storeys"}
 
 
 @dataclass(frozen=True)
@@ -24,12 +27,14 @@ class Fault:
         effects: that break these equations.
         equations: that do not hold.
         channels: on which it sits; none for an effect of the rig.
+        needs: equations that must check something for a fit to look for it.
     """
 
     name: str
     effects: tuple[str, ...]
     equations: frozenset[str]
     channels: tuple[str, ...] = ()
+    needs: frozenset[str] = frozenset()
 
     @property
     def kind(self) -> str:
@@ -114,7 +119,7 @@ def list_faults(
         channels: of the gauges, whose faults count.
         effects: that may be; their faults of gauges among them.
     """
-    by_equations: dict[frozenset[str], list[Effect]] = {}
+    by_equations: dict[tuple[frozenset[str], frozenset[str]], list[Effect]] = {}
     by_place: dict[str, tuple[tuple[str, ...], list[str]]] = {}
     cannot: dict[str, str] = {}
     used = [c for c in channels if equations.measured_by(c)]
@@ -127,11 +132,14 @@ def list_faults(
         reason = _what_rig_lacks(effect, equations)
         broken = () if reason else list_broken(effect, equations)
         if broken:
-            by_equations.setdefault(frozenset(broken), []).append(effect)
+            needs = frozenset(_CHECKED_BY[need] for need in effect.all_needs if need in _CHECKED_BY)
+            by_equations.setdefault((frozenset(broken), needs), []).append(effect)
         else:
             cannot[effect.name] = reason or "no balance of this rig holds it"
     names = _name_classes(by_equations)
-    out = [Fault(names[of], tuple(e.name for e in members), of) for of, members in by_equations.items()]
+    out = [
+        Fault(names[key], tuple(e.name for e in members), key[0], needs=key[1]) for key, members in by_equations.items()
+    ]
     order = sorted(by_place, key=lambda place: (place.startswith("pad_"), "*" in place, place))
     for place in order:
         targets, members = by_place[place]
@@ -156,15 +164,17 @@ def _what_rig_lacks(effect: Effect, equations: BalanceEquations) -> str:
     return next((effect.without(need) for need in effect.all_needs if not has.get(need, True)), "")
 
 
-def _name_classes(classes: Mapping[frozenset[str], Sequence[Effect]]) -> dict[frozenset[str], str]:
+def _name_classes(
+    classes: Mapping[tuple[frozenset[str], frozenset[str]], Sequence[Effect]],
+) -> dict[tuple[frozenset[str], frozenset[str]], str]:
     """Name a class by its only effect, or by the component of its effects; by their equations where that is two's."""
     components = [" and ".join(sorted({e.component for e in of})) for of in classes.values() if len(of) > 1]
-    out: dict[frozenset[str], str] = {}
-    for equations, members in classes.items():
+    out: dict[tuple[frozenset[str], frozenset[str]], str] = {}
+    for key, members in classes.items():
         component = " and ".join(sorted({e.component for e in members}))
-        kinds = ", ".join(dict.fromkeys(name.partition(" ")[0] for name in sorted(equations)))
+        kinds = ", ".join(dict.fromkeys(name.partition(" ")[0] for name in sorted(key[0])))
         name = component if components.count(component) == 1 else f"{component} ({kinds})"
-        out[equations] = members[0].name if len(members) == 1 else name
+        out[key] = members[0].name if len(members) == 1 else name
     return out
 
 
@@ -178,7 +188,12 @@ def compute_structure(equations: BalanceEquations, faults: Sequence[Fault], chan
     """
     own = tuple(f for f in faults if set(f.channels) <= set(channels))
     incidence, broken = make_arrays(equations, own, channels)
-    return Structure(tuple(channels), own, analyse_structure(incidence, broken))
+    answer = analyse_structure(incidence, broken)
+    checked = find_overdetermined(incidence)
+    names = {name for name, here in zip(equations.with_gauges(channels), checked, strict=True) if here}
+    looked_for = np.array([fault.needs <= names for fault in own], bool)
+    answer = Diagnosability(answer.detectable & looked_for, answer.isolable & looked_for[:, None])
+    return Structure(tuple(channels), own, answer)
 
 
 def make_arrays(

@@ -31,7 +31,7 @@ from slipwise.selection.units import compute_shares_of_sizes, compute_units, com
 from slipwise.selection.whole_fits import compute_columns_of_fits, fit_whole, is_told_by_whole_fit
 
 #: Likelier than this to be of so many limits and floors: it takes part in the next linearisation.
-_LIKELY, _LIMITS, _FLOORS = 0.2, 0.6, 0.5
+LIKELY, LIKELY_LIMITS, LIKELY_FLOORS = 0.2, 0.6, 0.5
 #: Likelier than this to be no trifle: its unit is replayed at its own form and size, and its column is taken anew.
 _WORTH_A_REPLAY = 0.05
 #: Effects that take part in a linearisation at most, and how often it is done again.
@@ -334,7 +334,7 @@ def bring_to_units(
 
 
 def list_likely(
-    here: Linearisation, terms: Sequence[Term], posterior: Posterior, least: float = _LIKELY
+    here: Linearisation, terms: Sequence[Term], posterior: Posterior, least: float = LIKELY
 ) -> dict[str, dict[str, float]]:
     """Return label -> values of what is likely large and seen, at its likeliest form.
 
@@ -345,7 +345,7 @@ def list_likely(
         least: probability from which on something is likely.
     """
     of = {t.label: t for t in terms}
-    chance = np.mean((posterior.sizes > _LIMITS) & (posterior.seen > _FLOORS), axis=0)
+    chance = np.mean((posterior.sizes > LIKELY_LIMITS) & (posterior.seen > LIKELY_FLOORS), axis=0)
     out: dict[str, dict[str, float]] = {}
     for t in np.argsort(-chance)[:MOST_EFFECTS]:
         if chance[t] < least or chance[t] == 0.0:

@@ -19,13 +19,21 @@ from numpy.typing import NDArray
 from scipy.special import log_ndtr, ndtr
 
 from slipwise.arrays import Array
+from slipwise.evidence.calibration import Calibration, compute_log_odds
+from slipwise.evidence.decision import EVEN_ODDS, LISTED
 from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.inclusion import MATTERS, SEEN
 from slipwise.selection.posterior import Prior
+from slipwise.selection.proposals import LIKELY, LIKELY_FLOORS, LIKELY_LIMITS
 from slipwise.selection.statistics import Statistics, compute_left_by_base
 
 #: Least eigenvalue of products of columns, of their largest: below it is round-off [1].
 _ROUND_OFF = 1e-12
+#: By how much the limits of materiality of a rig as built and of its model differ: standard deviation, of rigs whose
+#: mass, law and springs are some percent off [logarithm].
+_RIG_AS_BUILT = 0.1
+#: Logarithm of the standard errors by which a model is better with an effect that is there, where these are many [1].
+_BEYOND_DOUBT = float(np.log(10.0))
 
 
 @dataclass(frozen=True)
@@ -42,6 +50,7 @@ class Weighing:
         noise: (b + K, b + K) root of the covariance of the weighted pull of white noise.
         trifle: (K,) standard deviation of what is always there [limits].
         least: (K,) size from which a column matters and is seen [limits].
+        worth_a_refit: (K,) size from which a model is refitted with it [limits].
         odds: (K,) logarithm of the prior of each column against none.
         one_sided: (K,) whether a size is at least zero.
     """
@@ -54,6 +63,7 @@ class Weighing:
     noise: Array
     trifle: Array
     least: Array
+    worth_a_refit: Array
     odds: Array
     one_sided: NDArray[np.bool_]
 
@@ -87,6 +97,7 @@ def prepare_weighing(
     values, axes = np.linalg.eigh(np.tensordot(weights**2, statistics.products, 1))
     noise = axes * np.sqrt(np.where(values > _ROUND_OFF * values[-1], values, 0.0))
     shown = np.array([np.diag(left) for left in compute_left_by_base(statistics)]).max(axis=0)
+    floor = np.sqrt(np.maximum(shown, 1e-300))  # what one limit leaves in the relation that shows it best
     return Weighing(
         labels,
         gauge,
@@ -95,7 +106,8 @@ def prepare_weighing(
         whole[:, inside],
         noise,
         trifle,
-        np.maximum(MATTERS, SEEN / np.sqrt(np.maximum(shown, 1e-300))),
+        np.maximum(MATTERS, SEEN / floor),
+        np.maximum(LIKELY_LIMITS, LIKELY_FLOORS / floor),
         np.log(prior.chance / shares),
         np.array([not c.two_sided for c in columns]),
     )
@@ -107,20 +119,35 @@ def draw_pulls(weighing: Weighing, planted: int, size: float, count: int, rng: n
     Args:
         weighing: of `prepare_weighing`.
         planted: place of the column that is there; it has either sign where the effect may have.
-        size: of it [limits].
+        size: of it on the rig as modelled [limits]; on the rig as built the limit lies a little off.
         count: of the twins.
         rng: generator.
     """
     sizes = weighing.trifle * rng.standard_normal((count, len(weighing.labels)))
     sizes = np.where(weighing.one_sided, np.abs(sizes), sizes)
     sign = 1.0 if weighing.one_sided[planted] else rng.choice([-1.0, 1.0], count)
-    sizes[:, planted] = sign * size
+    sizes[:, planted] = sign * size * np.exp(_RIG_AS_BUILT * rng.standard_normal(count))
     pull = sizes @ weighing.pushed.T + rng.standard_normal((count, len(weighing.noise))) @ weighing.noise.T
     return pull @ weighing.response.T
 
 
-def weigh(weighing: Weighing, pulls: Array) -> dict[str, Array]:
-    """Return term -> (n,) probability that it is the one that matters and is seen.
+@dataclass(frozen=True)
+class TwinEvidence:
+    """What the posterior of each twin says of one term.
+
+    Attributes:
+        matters: (n,) probability that it is of `inclusion.MATTERS` limits and `SEEN` floors.
+        likely: (n,) probability that it is so large that a refit would be made with it.
+        spread: (n,) standard deviation of its size where it is there, over the mean [1].
+    """
+
+    matters: Array
+    likely: Array
+    spread: Array
+
+
+def weigh(weighing: Weighing, pulls: Array) -> dict[str, TwinEvidence]:
+    """Return term -> what the posterior of each twin says of it.
 
     Args:
         weighing: of `prepare_weighing`.
@@ -128,24 +155,74 @@ def weigh(weighing: Weighing, pulls: Array) -> dict[str, Array]:
     """
     prior = Prior()
     own = np.maximum(np.diag(weighing.precision), 0.0)
-    worth, large = [], []
-    for width, odds in zip(prior.large, np.log(prior.widths), strict=True):
-        curvature = own + width**-2.0
-        deviation = 1.0 / np.sqrt(curvature)
-        mean, sure = pulls / curvature, pulls * deviation
-        value = 0.5 * sure**2 - np.log(width * np.sqrt(curvature)) + weighing.odds + odds
-        above = ndtr((mean - weighing.least) / deviation)
-        below = ndtr((-mean - weighing.least) / deviation)
-        inside = ndtr(mean / deviation)
-        value = np.where(weighing.one_sided, value + np.log(2.0) + log_ndtr(sure), value)
-        large.append(np.where(weighing.one_sided, above / np.maximum(inside, 1e-12), above + below))
-        worth.append(value)
-    every = np.stack(worth, axis=2)  # (n, K, widths)
-    top = np.maximum(every.max(axis=(1, 2)), 0.0)
-    chance = np.exp(every - top[:, None, None])
-    chance /= (chance.sum(axis=(1, 2)) + np.exp(-top))[:, None, None]
-    matters = np.sum(chance * np.stack(large, axis=2), axis=2)
-    out: dict[str, Array] = {}
-    for column, label in enumerate(weighing.labels):
-        out[label] = out.get(label, 0.0) + matters[:, column]
+    curvature = own[:, None] + np.array(prior.large) ** -2.0  # (K, widths)
+    deviation = 1.0 / np.sqrt(curvature)
+    mean = pulls[:, :, None] / curvature
+    one_sided = weighing.one_sided[:, None]
+    value = 0.5 * (mean / deviation) ** 2 - np.log(np.array(prior.large) * np.sqrt(curvature))
+    value += weighing.odds[:, None] + np.log(prior.widths)
+    value = np.where(one_sided, value + np.log(2.0) + log_ndtr(mean / deviation), value)
+    top = np.maximum(value.max(axis=(1, 2)), 0.0)[:, None, None]
+    chance = np.exp(value - top)
+    chance /= chance.sum(axis=(1, 2), keepdims=True) + np.exp(-top)
+    inside = np.maximum(ndtr(mean / deviation), 1e-12)
+
+    def beyond(least: Array) -> Array:
+        above, below = ndtr((mean - least[:, None]) / deviation), ndtr((-mean - least[:, None]) / deviation)
+        return np.sum(chance * np.where(one_sided, above / inside, above + below), axis=2)
+
+    matters, likely = beyond(weighing.least), beyond(weighing.worth_a_refit)
+    present = np.sum(chance, axis=2)
+    first, second = np.sum(chance * np.abs(mean), axis=2), np.sum(chance * (mean**2 + deviation**2), axis=2)
+    out: dict[str, TwinEvidence] = {}
+    for label in dict.fromkeys(weighing.labels):
+        at = [k for k, other in enumerate(weighing.labels) if other == label]
+        there = np.maximum(present[:, at].sum(axis=1), 1e-12)
+        size, square = first[:, at].sum(axis=1) / there, second[:, at].sum(axis=1) / there
+        spread = np.sqrt(np.maximum(square - size**2, 0.0)) / np.maximum(size, 1e-12)
+        out[label] = TwinEvidence(matters[:, at].sum(axis=1), likely[:, at].sum(axis=1), spread)
     return out
+
+
+@dataclass(frozen=True)
+class TwinVerdict:
+    """What would be said of each twin.
+
+    Attributes:
+        named: (n,) effect that is named; "" for none.
+        listed: (n,) effect that is said to be there, whether or not it matters; "" for none.
+    """
+
+    named: tuple[str, ...]
+    listed: tuple[str, ...]
+
+
+def decide_twins(
+    weighing: Weighing, evidence: Mapping[str, TwinEvidence], effects: Mapping[str, str], chances: Calibration
+) -> TwinVerdict:
+    """Decide of each twin as `evidence.decision` does, of a fit that is better with the effect beyond any doubt.
+
+    Args:
+        weighing: of `prepare_weighing`.
+        evidence: of `weigh`.
+        effects: term -> name of its effect.
+        chances: the calibration.
+    """
+    gauge = dict(zip(weighing.labels, weighing.gauge, strict=True))
+    labels = list(evidence)
+    likely = np.stack([evidence[label].likely for label in labels], axis=1)
+    named, listed = [], []
+    for twin, best in enumerate(likely.argmax(axis=1)):
+        name = effects[labels[best]]
+        own = [label for label in labels if effects[label] == name]
+        matters = sum(float(evidence[label].matters[twin]) for label in own)
+        of = {
+            "lead": _BEYOND_DOUBT, "share": 0.0, "stays": 1.0, "seen": 0.0, "beside": 0.0,
+            "gauge": float(gauge[labels[best]]), "inclusion": compute_log_odds(matters),
+            "spread": min(float(evidence[labels[best]].spread[twin]), 1.0),
+        }  # fmt: skip
+        tried = sum(float(evidence[label].likely[twin]) for label in own) >= LIKELY
+        is_named = tried and chances.matters(of) * matters >= EVEN_ODDS
+        named.append(name if is_named else "")
+        listed.append(name if is_named or (tried and chances.present(of) >= LISTED) else "")
+    return TwinVerdict(tuple(named), tuple(listed))
