@@ -32,8 +32,8 @@ _ROUND_OFF = 1e-12
 #: By how much the limits of materiality of a rig as built and of its model differ: standard deviation, of rigs whose
 #: mass, law and springs are some percent off [logarithm].
 _RIG_AS_BUILT = 0.1
-#: Logarithm of the standard errors by which a model is better with an effect that is there, where these are many [1].
-_BEYOND_DOUBT = float(np.log(10.0))
+#: A model is taken to be better with an effect that is there by so many standard errors [1].
+_BEYOND_DOUBT = 10.0
 
 
 @dataclass(frozen=True)
@@ -217,7 +217,7 @@ def decide_twins(
         own = [label for label in labels if effects[label] == name]
         matters = sum(float(evidence[label].matters[twin]) for label in own)
         of = {
-            "lead": _BEYOND_DOUBT, "share": 0.0, "stays": 1.0, "seen": 0.0, "beside": 0.0,
+            "lead": float(np.log(_BEYOND_DOUBT)), "share": 0.0, "stays": 1.0, "seen": 0.0, "beside": 0.0,
             "gauge": float(gauge[labels[best]]), "inclusion": compute_log_odds(matters),
             "spread": min(float(evidence[labels[best]].spread[twin]), 1.0),
         }  # fmt: skip

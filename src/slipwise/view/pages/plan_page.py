@@ -28,8 +28,8 @@ _HOW = (
     "2 %, or a gauge's fault its channel by 1 %, unless campaign.toml says otherwise; from replays of the last motion.",
     "Chances: the motions are replayed on the model, filtered, sampled and given noise; the model is fitted to that; "
     "then campaigns are drawn in which the effect is there at its limit, beside small imperfections of everything. "
-    "Seen: anything is said to be missing. Named: this effect is. From: the size, in limits, from which it is large "
-    "enough to be named.",
+    "Seen: an effect is said to be there, whether it matters or not. Named: this effect is said to matter. From: the "
+    "size, in limits, from which it is large enough to be named; at one limit a verdict is half a matter of chance.",
     "An effect of which a fit leaves less than two thirds of the noise in every relation is never named, however long "
     "the test: that is why some are named from several limits only.",
     "Of other sets of gauges whole relations are left out, and nothing is fitted again. Yaw and gauges across count by "
