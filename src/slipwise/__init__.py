@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from slipwise.motion import TableMotion, load_motion
     from slipwise.params import Parameter
     from slipwise.planning.plan import plan
-    from slipwise.planning.result import Plan
+    from slipwise.planning.result import PlannedTest
     from slipwise.record import Record, read_record, write_record
     from slipwise.session.model_change import ModelChange, add, remove
     from slipwise.session.session import Session
@@ -100,7 +100,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "ModelChange": ("session.model_change", "ModelChange"),
     "NextTest": ("design.next_test", "NextTest"),
     "Parameter": ("params", "Parameter"),
-    "Plan": ("planning.result", "Plan"),
+    "PlannedTest": ("planning.result", "PlannedTest"),
     "Record": ("record", "Record"),
     "Replay": ("simulation.simulator", "Replay"),
     "Session": ("session.session", "Session"),
@@ -133,7 +133,7 @@ __all__ = [
     "ModelChange",
     "NextTest",
     "Parameter",
-    "Plan",
+    "PlannedTest",
     "Record",
     "Replay",
     "Session",

@@ -69,7 +69,7 @@ def plan(
         say(f"wrote {path}")
 
 
-def _tell(found: "sw.Plan") -> None:
+def _tell(found: "sw.PlannedTest") -> None:
     """Print the sentence, what to add, and the tables."""
     from slipwise.view.words.plan_tables import list_advice, list_effect_rows, list_motion_lines, list_set_rows
     from slipwise.view.words.terminal import print_table

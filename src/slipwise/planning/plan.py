@@ -18,7 +18,7 @@ from slipwise.planning.chances import Chance, RankedMotion, compute_chances, ran
 from slipwise.planning.gauge_kits import Kit, Remedy, choose_set, list_kits, list_remedies, list_sets
 from slipwise.planning.planned_columns import PlannedColumns, compute_planned_columns, find_allowed
 from slipwise.planning.planned_runs import PlannedRuns, list_recorded_motions, replay_planned
-from slipwise.planning.result import GaugeSet, Plan
+from slipwise.planning.result import GaugeSet, PlannedTest
 from slipwise.planning.sensors import Sensors, make_sensors
 from slipwise.planning.structure import Structure, compute_structure, list_faults
 from slipwise.rig import Specimen, load_specimen, storey_names
@@ -41,7 +41,7 @@ def plan(
     rate: float | None = None,
     corner: float | None = None,
     progress: Callable[[str, float], None] | None = None,
-) -> Plan:
+) -> PlannedTest:
     """Say before a test what its gauges and motions would show.
 
     Args:
@@ -103,7 +103,7 @@ def plan(
         chain = make_sensors(campaign, rate, corner)
         made, sets, ranked = _with_chances(start, asked, sets, used, chain, campaign, untestable, tell)
     tell("done", 1.0)
-    return Plan(
+    return PlannedTest(
         specimen.name,
         tuple(sets),
         unused,

@@ -44,7 +44,7 @@ class GaugeSet:
 
 
 @dataclass(frozen=True, repr=False)
-class Plan(Drawn, Tabular):
+class PlannedTest(Drawn, Tabular):
     """A planned test.
 
     Attributes:

@@ -37,7 +37,7 @@ _BEYOND_DOUBT = 10.0
 
 
 @dataclass(frozen=True)
-class Weighing:
+class TwinWeighing:
     """How a posterior would weigh any residual with these products, the residual itself not yet known.
 
     Attributes:
@@ -70,7 +70,7 @@ class Weighing:
 
 def prepare_weighing(
     statistics: Statistics, columns: Sequence[CandidateColumn], tolerances: Mapping[int, tuple[float, float]]
-) -> Weighing:
+) -> TwinWeighing:
     """Return how residuals with these products are weighed.
 
     Args:
@@ -98,7 +98,7 @@ def prepare_weighing(
     noise = axes * np.sqrt(np.where(values > _ROUND_OFF * values[-1], values, 0.0))
     shown = np.array([np.diag(left) for left in compute_left_by_base(statistics)]).max(axis=0)
     floor = np.sqrt(np.maximum(shown, 1e-300))  # what one limit leaves in the relation that shows it best
-    return Weighing(
+    return TwinWeighing(
         labels,
         gauge,
         whole[inside, inside] - solved @ whole[:, inside],
@@ -113,7 +113,7 @@ def prepare_weighing(
     )
 
 
-def draw_pulls(weighing: Weighing, planted: int, size: float, count: int, rng: np.random.Generator) -> Array:
+def draw_pulls(weighing: TwinWeighing, planted: int, size: float, count: int, rng: np.random.Generator) -> Array:
     """Return what twins with one effect pull on every column, (n, K).
 
     Args:
@@ -146,7 +146,7 @@ class TwinEvidence:
     spread: Array
 
 
-def weigh(weighing: Weighing, pulls: Array) -> dict[str, TwinEvidence]:
+def weigh(weighing: TwinWeighing, pulls: Array) -> dict[str, TwinEvidence]:
     """Return term -> what the posterior of each twin says of it.
 
     Args:
@@ -198,7 +198,7 @@ class TwinVerdict:
 
 
 def decide_twins(
-    weighing: Weighing, evidence: Mapping[str, TwinEvidence], effects: Mapping[str, str], chances: Calibration
+    weighing: TwinWeighing, evidence: Mapping[str, TwinEvidence], effects: Mapping[str, str], chances: Calibration
 ) -> TwinVerdict:
     """Decide of each twin as `evidence.decision` does, of a fit that is better with the effect beyond any doubt.
 

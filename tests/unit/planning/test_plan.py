@@ -12,7 +12,7 @@ GAUGES = ("pad_*_N", "pad_*_Fx", "slip_x", "girder_ax", "table_ax")
 
 
 @pytest.fixture(scope="module")
-def short() -> sw.Plan:
+def short() -> sw.PlannedTest:
     return sw.plan("bridge1", [MOTION], GAUGES, rate=250.0, corner=80.0)
 
 

@@ -6,7 +6,7 @@ import pytest
 from slipwise.evidence.calibration import load_calibration
 from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.statistics import Statistics
-from slipwise.selection.twins import Weighing, decide_twins, draw_pulls, prepare_weighing, weigh
+from slipwise.selection.twins import TwinWeighing, decide_twins, draw_pulls, prepare_weighing, weigh
 
 ROWS = 4000
 
@@ -23,7 +23,7 @@ def statistics_of(columns: np.ndarray, slope: np.ndarray) -> Statistics:
     return Statistics((every.T @ every)[None], nothing, count, count, count, count, 1, of_base)
 
 
-def weighing_of(columns: np.ndarray, **kind) -> Weighing:
+def weighing_of(columns: np.ndarray, **kind) -> TwinWeighing:
     slope = np.random.default_rng(2).standard_normal(ROWS)
     return prepare_weighing(statistics_of(columns, slope), [column(label, **kind) for label in "abc"], {})
 

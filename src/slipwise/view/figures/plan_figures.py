@@ -3,7 +3,6 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from slipwise.planning.result import Plan
 from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.style import INK, styled
 from slipwise.view.words.plan_tables import list_matrix_rows
@@ -12,7 +11,7 @@ from slipwise.view.words.plan_tables import list_matrix_rows
 _DARK = 55
 
 
-def chances_figure(found: Plan, *, narrow: bool = False) -> Figure:
+def chances_figure(found: PlannedTest, *, narrow: bool = False) -> Figure:
     """Draw effects by sets of gauges; what a set cannot show is left blank.
 
     Args:

@@ -147,7 +147,7 @@ _PICTURES: dict[str, Callable[[Any], Figure]] = {
     "Ladder": _ladder,
     "ModelChange": _change,
     "NextTest": _next_test,
-    "Plan": _plan,
+    "PlannedTest": _plan,
     "Record": _record,
     "Replay": lambda replay: _record(replay.record),
     "Session": _session,

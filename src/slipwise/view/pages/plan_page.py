@@ -2,7 +2,6 @@
 
 from typing import Any
 
-from slipwise.planning.result import Plan
 from slipwise.view.figures.plan_figures import chances_figure
 from slipwise.view.pages.html import Section, bullets, callout, details, figure, page, paragraph, table, verdict
 from slipwise.view.words.numbers import counted
@@ -37,7 +36,7 @@ _HOW = (
 )
 
 
-def plan_page(found: Plan) -> str:
+def plan_page(found: PlannedTest) -> str:
     """Make the page of a plan: the text of one HTML file that needs nothing else."""
     sections = [
         Section("Gauges to add", _advice(found)),
@@ -50,7 +49,7 @@ def plan_page(found: Plan) -> str:
     return page(f"{found.rig}: plan of a test", sections, _summary(found))
 
 
-def _summary(found: Plan) -> list[Any]:
+def _summary(found: PlannedTest) -> list[Any]:
     told, seen, _ = found.planned.structure.score
     facts: dict[str, Any] = {"channels": len(found.planned.channels), "can be seen": seen, "told apart": told}
     asked = [c for c in found.planned.of_rig if c.possible]
@@ -72,19 +71,19 @@ def _summary(found: Plan) -> list[Any]:
     return pieces
 
 
-def _advice(found: Plan) -> list[Any]:
+def _advice(found: PlannedTest) -> list[Any]:
     advice = list_advice(found)
     return [bullets(advice)] if advice else [paragraph("The planned gauges show everything, and tell it apart.")]
 
 
-def _sets(found: Plan) -> list[Any]:
+def _sets(found: PlannedTest) -> list[Any]:
     words = "How many effects of the rig each set can show and tell from all else by the balances alone"
     words += ", and its mean chance to name one at its limit." if found.planned.chances else "."
     channels = [f"{letter}: {', '.join(one.channels)}" for letter, one in name_sets(found).items()]
     return [paragraph(words), table(list_set_rows(found)), details("Channels of each set", [bullets(channels)])]
 
 
-def _effects(found: Plan) -> list[Any]:
+def _effects(found: PlannedTest) -> list[Any]:
     if not list_matrix_rows(found):
         return [paragraph("No effect of the rig can reach its limit of materiality in these motions.")]
     caption = "Chance to name each effect at its limit of materiality, by set of gauges; -: the set cannot show it."
@@ -99,7 +98,7 @@ def _effects(found: Plan) -> list[Any]:
     return pieces
 
 
-def _motions(found: Plan) -> list[Any]:
+def _motions(found: PlannedTest) -> list[Any]:
     words = (
         "In the sequence that names most as early as possible: the first rows are the motions to make first. Alone: "
         "mean chance to name an effect by this motion. So far: by all up to it; a calm motion after a strong one can "
@@ -108,7 +107,7 @@ def _motions(found: Plan) -> list[Any]:
     return [paragraph(words), table(list_motion_rows(found))]
 
 
-def _kinds(found: Plan) -> list[Any]:
+def _kinds(found: PlannedTest) -> list[Any]:
     pieces: list[Any] = [table(list_kind_rows(found.planned))]
     if found.untestable:
         reasons = [f"{name}: {why}" for name, why in sorted(found.untestable.items())]
@@ -116,5 +115,5 @@ def _kinds(found: Plan) -> list[Any]:
     return pieces
 
 
-def _about(found: Plan) -> list[Any]:
+def _about(found: PlannedTest) -> list[Any]:
     return [paragraph(f"Made in {found.seconds:.0f} s.")]

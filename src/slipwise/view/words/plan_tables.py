@@ -6,7 +6,7 @@ from typing import Any
 
 from slipwise.planning.chances import Chance
 from slipwise.planning.gauge_kits import Remedy
-from slipwise.planning.result import GaugeSet, Plan
+from slipwise.planning.result import GaugeSet
 from slipwise.units import convert
 from slipwise.view.words.numbers import counted, unit_of_size
 
@@ -16,7 +16,7 @@ _FAR = 1e3
 _MOST = 4
 
 
-def name_sets(found: Plan) -> dict[str, GaugeSet]:
+def name_sets(found: PlannedTest) -> dict[str, GaugeSet]:
     """Return the sets of gauges by the letter that tables and pictures call them by; A is the planned one."""
     return dict(zip(ascii_uppercase, found.sets, strict=False))
 
@@ -76,7 +76,7 @@ def _mean(values: Sequence[float]) -> float:
     return sum(values) / max(len(values), 1)
 
 
-def list_set_rows(found: Plan) -> list[dict[str, Any]]:
+def list_set_rows(found: PlannedTest) -> list[dict[str, Any]]:
     """Return a row for each set of gauges."""
     rows, every = [], {c.effect for one in found.sets for c in one.of_rig if c.possible}
     for letter, one in name_sets(found).items():
@@ -89,7 +89,7 @@ def list_set_rows(found: Plan) -> list[dict[str, Any]]:
     return rows
 
 
-def list_matrix_rows(found: Plan) -> list[dict[str, Any]]:
+def list_matrix_rows(found: PlannedTest) -> list[dict[str, Any]]:
     """Return effects by sets of gauges: chance to name each [%]; "-" where a set cannot show it."""
     sized = {letter: one for letter, one in name_sets(found).items() if one.chances}
     names = dict.fromkeys(c.effect for one in sized.values() for c in one.of_rig if c.possible)
@@ -103,7 +103,7 @@ def list_matrix_rows(found: Plan) -> list[dict[str, Any]]:
     return rows
 
 
-def list_motion_rows(found: Plan) -> list[dict[str, Any]]:
+def list_motion_rows(found: PlannedTest) -> list[dict[str, Any]]:
     """Return the motions in their sequence."""
     return [
         {
@@ -116,7 +116,7 @@ def list_motion_rows(found: Plan) -> list[dict[str, Any]]:
     ]
 
 
-def list_motion_lines(found: Plan) -> list[str]:
+def list_motion_lines(found: PlannedTest) -> list[str]:
     """Return the motions in their sequence as lines, for a terminal that would break their names in a table."""
     return [
         f"{m.order}. {m.motion}: {percent(m.named)} % alone, {percent(m.together)} % with all before it"
@@ -138,7 +138,7 @@ def list_kind_rows(one: GaugeSet) -> list[dict[str, Any]]:
     return rows
 
 
-def list_advice(found: Plan) -> list[str]:
+def list_advice(found: PlannedTest) -> list[str]:
     """Return what to add, fewest channels first, and what that would show or separate; then what no gauge would."""
     planned = set(found.planned.channels)
     by_kits: dict[tuple[str, ...], list[Remedy]] = {}
