@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
+from slipwise.planning.result import PlannedTest
 from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.style import INK, styled
 from slipwise.view.words.plan_tables import list_matrix_rows

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from slipwise.planning.result import PlannedTest
 from slipwise.view.figures.plan_figures import chances_figure
 from slipwise.view.pages.html import Section, bullets, callout, details, figure, page, paragraph, table, verdict
 from slipwise.view.words.numbers import counted

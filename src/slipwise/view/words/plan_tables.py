@@ -6,7 +6,7 @@ from typing import Any
 
 from slipwise.planning.chances import Chance
 from slipwise.planning.gauge_kits import Remedy
-from slipwise.planning.result import GaugeSet
+from slipwise.planning.result import GaugeSet, PlannedTest
 from slipwise.units import convert
 from slipwise.view.words.numbers import counted, unit_of_size
 
