@@ -49,6 +49,8 @@ if TYPE_CHECKING:
     from slipwise.model.file import load_model, save_model
     from slipwise.motion import TableMotion, load_motion
     from slipwise.params import Parameter
+    from slipwise.planning.plan import plan
+    from slipwise.planning.result import PlannedTest
     from slipwise.record import Record, read_record, write_record
     from slipwise.session.model_change import ModelChange, add, remove
     from slipwise.session.session import Session
@@ -85,6 +87,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "add": ("session.model_change", "add"),
     "remove": ("session.model_change", "remove"),
     "next_test": ("design.next_test", "next_test"),
+    "plan": ("planning.plan", "plan"),
     "read_record": ("record", "read_record"),
     "write_record": ("record", "write_record"),
     "quantity": ("units", "quantity"),
@@ -103,6 +106,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "NextTest": ("design.next_test", "NextTest"),
     "OpenSeesExport": ("export.opensees", "OpenSeesExport"),
     "Parameter": ("params", "Parameter"),
+    "PlannedTest": ("planning.result", "PlannedTest"),
     "Record": ("record", "Record"),
     "Replay": ("simulation.simulator", "Replay"),
     "Session": ("session.session", "Session"),
@@ -137,6 +141,7 @@ __all__ = [
     "NextTest",
     "OpenSeesExport",
     "Parameter",
+    "PlannedTest",
     "Record",
     "Replay",
     "Session",
@@ -169,6 +174,7 @@ __all__ = [
     "next_test",
     "paper",
     "pier_top",
+    "plan",
     "quantity",
     "read_record",
     "remove",

@@ -67,12 +67,16 @@ ARROWS: dict[str, str] = {
         "campaign comparison diagnosis discovery display effects errors estimation evidence jobs model motion"
         " preparation record relations selection signals simulation units"
     ),
+    "planning": (
+        "arrays campaign channels comparison display effects errors estimation evidence jobs model motion preparation"
+        " record relations rig selection signals simulation"
+    ),
     "session": (
         "arrays campaign comparison diagnosis discovery display effects errors estimation jobs model preparation record"
         " relations rig selection simulation units"
     ),
     "view": (
-        "arrays bearings channels comparison diagnosis discovery effects errors estimation export jobs noise params"
+        "arrays bearings channels comparison diagnosis discovery effects errors estimation export jobs noise params planning"
         " record relations residual_map rig selection signals studies units"
     ),
     "cli": "errors jobs view",

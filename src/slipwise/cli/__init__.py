@@ -20,6 +20,7 @@ from slipwise.cli import (
     model_edit,
     next_test,
     paper,
+    plan,
     replay,
     view,
     workbench,
@@ -41,6 +42,7 @@ for command in (
 ):  # fmt: skip
     app.command()(command)
 app.command("next")(next_test.next_motion)
+app.command()(plan.plan)
 app.command()(bearing.bearing)
 app.add_typer(export.app, name="export")
 for command in (

@@ -32,7 +32,7 @@ from slipwise.selection.units import Moved, compute_moved_by_sizes, compute_unit
 from slipwise.selection.whole_fits import compute_columns_of_fits, fit_whole, is_told_by_whole_fit
 
 #: Likelier than this to be of so many limits and floors: it takes part in the next linearisation.
-LIKELY, _LIMITS, _FLOORS = 0.2, 0.6, 0.5
+LIKELY, LIKELY_LIMITS, LIKELY_FLOORS = 0.2, 0.6, 0.5
 #: Likelier than this to be no trifle: its unit is replayed at its own form and size, and its column is taken anew.
 _WORTH_A_REPLAY = 0.05
 #: Effects that take part in a linearisation at most, and how often it is done again.
@@ -85,9 +85,9 @@ def propose(base: BaseFit, terms: Sequence[Term], limits: Materiality) -> Propos
     origin = make_base_hypothesis(base)
     whole = fit_whole(base, terms)
     raw = [*compute_raw_columns(base, list_forms(base, terms), rows), *compute_columns_of_fits(base, whole, rows)]
-    most = _find_runs_of_most(raw, rows)
+    most = find_runs_of_most(raw, rows)
     units = compute_units(base, terms, whole, limits, most)
-    here = linearise(base, origin, rows, _in_units(raw, units, rows), limits)
+    here = linearise(base, origin, rows, bring_to_units(raw, units, rows), limits)
     here, posterior = _weighed(base, terms, here, limits, most)
     first = here
     for _ in range(_ROUNDS if base.objective.balanced else _STEPS):
@@ -102,7 +102,7 @@ def propose(base: BaseFit, terms: Sequence[Term], limits: Materiality) -> Propos
 
 def compute_chances_of_large(posterior: Posterior) -> Array:
     """Return for each term (T,) how likely it is large and seen: from `LIKELY` on it is refitted."""
-    return np.mean((posterior.sizes > _LIMITS) & (posterior.seen > _FLOORS), axis=0)
+    return np.mean((posterior.sizes > LIKELY_LIMITS) & (posterior.seen > LIKELY_FLOORS), axis=0)
 
 
 def compute_unexplained(proposal: ProposedModel) -> dict[str, float]:
@@ -163,7 +163,7 @@ def _weighed(
     return here, posterior
 
 
-def _find_runs_of_most(raw: Sequence[CandidateColumn], rows: AveragedRows) -> dict[str, int]:
+def find_runs_of_most(raw: Sequence[CandidateColumn], rows: AveragedRows) -> dict[str, int]:
     """Return label -> place of the fitted run in which a candidate does most, where it does much less in the last."""
     runs = np.unique(rows.run)
     out: dict[str, int] = {}
@@ -321,10 +321,10 @@ def _linearised_again(
     whole = fit_whole(fit, [t for t in beside if t.label in told], once=True)
     raw = [*compute_raw_columns(fit, list_forms(fit, anew), rows), *compute_columns_of_fits(fit, whole, rows)]
     every = {**units, **compute_units_of_fits(fit, whole, limits)}
-    return linearise(base, found, rows, [*kept, *_in_units(raw, every, rows)], limits)
+    return linearise(base, found, rows, [*kept, *bring_to_units(raw, every, rows)], limits)
 
 
-def _in_units(
+def bring_to_units(
     raw: Sequence[CandidateColumn], units: Mapping[tuple[str, str], Moved], rows: AveragedRows
 ) -> list[CandidateColumn]:
     """Bring columns to units of materiality, other forms in proportion to what they change directly."""

@@ -50,6 +50,12 @@ def _ladder(found: Any) -> Figure:
     return ladder_figure(found)
 
 
+def _plan(found: Any) -> Figure:
+    from slipwise.view.figures.plan_figures import chances_figure
+
+    return chances_figure(found)
+
+
 def _discovery(found: Any) -> Figure:
     """Draw the first law, or else the state that explains most, or else the errors."""
     from slipwise.view.figures.discovery_errors import errors_figure
@@ -141,6 +147,7 @@ _PICTURES: dict[str, Callable[[Any], Figure]] = {
     "Ladder": _ladder,
     "ModelChange": _change,
     "NextTest": _next_test,
+    "PlannedTest": _plan,
     "Record": _record,
     "Replay": lambda replay: _record(replay.record),
     "Session": _session,

@@ -1,0 +1,108 @@
+"""Hold a plan's chances against campaigns of the second simulator: eight effects, each at its limit of materiality.
+
+    python scripts/20_plan.py --out out/plan                  # 40 campaigns, five of each effect
+    python scripts/20_plan.py --out out/plan --each 2
+    python scripts/20_plan.py --quick                         # the plan alone
+
+The plan sees the motions and the gauges, and the rig as rated. Each campaign has a rig of its own, several percent off,
+an effect of either sign at the size that the plan calls one limit, and gauges' noise. What was diagnosed before is kept
+in the folder and not done again.
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import slipwise as sw
+from slipwise.motion import TableMotion
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+
+from bench.campaign import fit_amplitude, shake  # noqa: E402  # pyright: ignore[reportMissingImports]
+from bench.faults import Fault  # noqa: E402  # pyright: ignore[reportMissingImports]
+from bench.gauges import USUAL, Logger, measure  # noqa: E402  # pyright: ignore[reportMissingImports]
+from bench.motions import NATURAL, Motion, draw_quake, draw_sine  # noqa: E402  # pyright: ignore[reportMissingImports]
+from bench.settings import GRAVITY, random_rig, rated  # noqa: E402  # pyright: ignore[reportMissingImports]
+from bench.write import write_campaign  # noqa: E402  # pyright: ignore[reportMissingImports]
+
+RIG = "bridge1"
+#: Effect -> what of the simulator's settings is its size.
+SETTINGS = {
+    "direction_asymmetry": lambda x: {"asymmetry": x},
+    "slide_tilt": lambda x: {"tilt": x},
+    "buffer_mismatch": lambda x: {"mismatch": x},
+    "buffer_height": lambda x: {"buffer_height": x},
+    "guide_drag": lambda x: {"drag_form": 1, "drag": abs(x)},
+    "mass_eccentricity": lambda x: {"centre_x": x},
+    "table_pitch": lambda x: {"pitch_form": 1, "pitch_per_acceleration": x, "pitch_frequency": 15.0},
+}
+FAULT = ("channel_gain", "slip_x")
+ONE_SIDED = ("guide_drag", "buffer_height")
+
+
+def make_motions() -> dict[str, Motion]:
+    """Return the three motions of the test, slips of the rated rig of 1 to 3 cm."""
+    rng, base = np.random.default_rng(58), rated(RIG)
+    sine = fit_amplitude(base, draw_sine(NATURAL[RIG], rng, False), 0.015, 0.18 * GRAVITY, 0.5 * GRAVITY)
+    quakes = [fit_amplitude(base, draw_quake(rng, False), 0.024, 0.4 * GRAVITY, 0.95 * GRAVITY) for _ in range(2)]
+    return {"sine_hv": sine, "quake_h": quakes[0].without_vertical(), "quake_hv": quakes[1]}
+
+
+def as_planned(name: str, motion: Motion) -> TableMotion:
+    """Return a motion of the bench as one of the library."""
+    return TableMotion(motion.step, np.stack([motion.ax, motion.ay, motion.az], axis=1), name, ("x", "y", "z"))
+
+
+def run_one(effect: str, size: float, number: int, motions: dict[str, Motion], folder: Path) -> dict:
+    """Diagnose one campaign, or read what was said of it before."""
+    answer = folder / f"{effect}_{number}.json"
+    if answer.is_file():
+        return json.loads(answer.read_text(encoding="utf-8"))
+    rng = np.random.default_rng([58, number, sum(map(ord, effect))])
+    signed = size if effect in ONE_SIDED else size * float(rng.choice([-1.0, 1.0]))
+    base = random_rig(RIG, rng)
+    settings = base.changed(**SETTINGS[effect](signed)) if effect in SETTINGS else base
+    faults = [] if effect in SETTINGS else [Fault(FAULT[0], (FAULT[1],), signed)]
+    runs, logger = shake(settings, motions, 0.0), Logger()
+    recorded = {name: measure(true, USUAL, logger, faults, rng, i) for i, (name, true) in enumerate(runs.items())}
+    place = folder / "campaigns" / f"{effect}_{number}"
+    write_campaign(place, RIG, logger, recorded, [(name, "fit") for name in recorded])
+    found = sw.diagnose(sw.load_campaign(place)).as_json()
+    said = {name: found[name] for name in ("effects", "minor", "verdict")}
+    answer.write_text(json.dumps(said), encoding="utf-8")
+    return said
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", type=Path, default=Path("out/plan"))
+    parser.add_argument("--each", type=int, default=5, help="campaigns of each effect")
+    parser.add_argument("--quick", action="store_true", help="the plan alone")
+    args = parser.parse_args()
+    args.out.mkdir(parents=True, exist_ok=True)
+    motions = make_motions()
+    planned = sw.plan(RIG, [as_planned(name, motion) for name, motion in motions.items()], USUAL)
+    print(planned.sentence)
+    chances = {c.effect: c for c in planned.planned.of_rig if c.effect in SETTINGS}
+    chances |= {c.effect: c for c in planned.planned.chances if (c.effect, c.place) == FAULT}
+    for effect, c in chances.items():
+        print(
+            f"{effect}: {c.value:.3g} {c.unit}, expected to be seen in {c.seen:.0%} and named in {c.named:.0%}",
+            flush=True,
+        )
+    done: dict[str, list[dict]] = {effect: [] for effect in chances}
+    for number in range(0 if args.quick else args.each):  # every effect once before any twice
+        for effect, chance in chances.items():
+            done[effect].append(run_one(effect, abs(chance.value), number, motions, args.out))
+            said = done[effect]
+            named = sum(effect in one["effects"] for one in said)
+            seen = sum(bool(one["effects"] or one["minor"]) for one in said)
+            print(f"{effect}: seen in {seen} and named in {named} of {len(said)}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
