@@ -77,7 +77,8 @@ def consequence(
     if json:
         print_json(content)
         return
-    print_table(f"{found.earthquakes} earthquakes, with and without {' and '.join(found.named)}", short_rows(found))
+    title = f"{found.earthquakes} earthquakes, without {' and '.join(found.named)} → with"
+    print_table(title, short_rows(found, whole=False))
     for words in found.notes:
         say(f"note: {words}")
     say(found.sentence)

@@ -33,7 +33,8 @@ WITHOUT, WITH = "without", "with"
 _ASKED = ("slip", "residual_slip", "pad_load", "buffer_force")
 _SIMILARITY = (
     "numbers of the bridge follow from those of the model by similarity (accelerations and pressures alike, lengths "
-    "{:g} times): how friction follows speed, heat, and lengths of pre-sliding and wear do not scale so, and are the model's"
+    "{:g} times): how friction follows speed, heat, and lengths of pre-sliding and wear do not scale so, and are those "
+    "of the model"
 )
 
 

@@ -34,7 +34,7 @@ def consequence_figure(found: Consequence, *, narrow: bool = False) -> Figure:
             (one.without, _WITHOUT, f"without {names}", (0, (5, 2))),
             (one.with_named, _WITH, f"with {names}", "-"),
         ):
-            shown = np.sort(np.asarray(convert(factor * values, one.response.unit, unit)))
+            shown = np.sort(values) * convert(factor, one.response.unit, unit)
             share = (np.arange(len(shown)) + 0.5) / len(shown)
             axes.step(shown, 100.0 * share, where="post", color=colour, linewidth=1.8, linestyle=line, label=label)
             marks.append((float(np.quantile(shown, OF_THE_SENTENCE)), colour))
@@ -44,7 +44,7 @@ def consequence_figure(found: Consequence, *, narrow: bool = False) -> Figure:
         for (value, colour), side in zip(ordered, ("right", "left"), strict=True):
             axes.plot([value, value], [0.0, level], color=colour, linewidth=0.8)
             axes.annotate(
-                f"{value:.3g}", (value, level), xytext=(-4 if side == "right" else 4, 4), textcoords="offset points",
+                f"{value:.3g}", (value, level), xytext=(-4, 4) if side == "right" else (4, -12), textcoords="offset points",
                 ha=side, color=INK, fontsize=9.0,
             )  # fmt: skip
         axes.set(ylim=(0.0, 102.0), ylabel="earthquakes below [%]", xlabel=f"peak slip of {found.what} [{unit}]")

@@ -26,7 +26,10 @@ def consequence_page(found: Consequence) -> str:
         "Two distributions of peak slip",
         narrow=consequence_figure(found, narrow=True),
     )
-    about = "Quantiles over all earthquakes. The interval of the change is that of drawing the earthquakes again."
+    about = (
+        "Quantiles over all earthquakes, without → with. The interval of the change is that of drawing the earthquakes "
+        "again."
+    )
     sections = [
         Section("Peak slip", [picture]),
         Section("Responses", [paragraph(about), table(short_rows(found))]),

@@ -30,22 +30,29 @@ def consequence_rows(found: Consequence) -> list[dict[str, Any]]:
     return rows
 
 
-def short_rows(found: Consequence) -> list[dict[str, Any]]:
-    """Return the same for people: without and with in one cell."""
+def short_rows(found: Consequence, *, whole: bool = True) -> list[dict[str, Any]]:
+    """Return one row for each response, for people: without and with in one cell, model and bridge beside each other.
+
+    Args:
+        found: the result.
+        whole: with the model's numbers and the interval of the change, for which a terminal has no room.
+    """
     rows = []
     for one in found.distributions:
-        for place, factor in _places(found, one).items():
-            row: dict[str, Any] = {"response": f"{NAMES[one.response.name]} [{one.response.shown_in}]"}
-            row |= {"of": place} if found.scaled else {}
+        row: dict[str, Any] = {"response": f"{NAMES[one.response.name]} [{one.response.shown_in}]"}
+        places = _places(found, one)
+        for place, factor in places.items() if whole else list(places.items())[-1:]:
             for share in QUANTILES:
-                before, after = (f"{shown(one, factor * value):.3g}" for value in one.quantiles(share))
-                row[f"{100 * share:.0f} %, without → with"] = f"{before} → {after}"
-            value, low, high = one.change(OF_THE_SENTENCE)
-            if math.isfinite(value):
-                between = f"({100 * low:+.2g} to {100 * high:+.2g})"
-                row[f"change of {100 * OF_THE_SENTENCE:.0f} % [%]"] = f"{100 * value:+.2g} {between}"
-            rows.append(row)
+                before, after = (_figures(shown(one, factor * value)) for value in one.quantiles(share))
+                row[f"{place}, {100 * share:.0f} %"] = f"{before} → {after}"
+        change = _change(one)
+        rows.append(row | (change if whole else {"change": next(iter(change.values()))}))
     return rows
+
+
+def _figures(value: float) -> str:
+    """Write a number with three figures and without a power of ten."""
+    return f"{value:.0f}" if abs(value) >= 100.0 else f"{value:.3g}"
 
 
 def shown(of: Distribution, value: float) -> float:
