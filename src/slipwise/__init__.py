@@ -58,6 +58,8 @@ if TYPE_CHECKING:
     from slipwise.simulation.replay import replay
     from slipwise.simulation.simulator import Replay, SimulationDiverged
     from slipwise.studies import campaigns, ensemble, paper
+    from slipwise.studies.consequence.judge import judge_consequence as consequence
+    from slipwise.studies.consequence.result import Consequence
     from slipwise.units import quantity
 
     __version__: str
@@ -75,6 +77,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "init_campaign": ("campaign.draft", "init_campaign"),
     "load_campaign": ("campaign", "load_campaign"),
     "audit": ("instruments.checks", "check_instruments"),
+    "consequence": ("studies.consequence.judge", "judge_consequence"),
     "corrected_campaign": ("instruments.checks", "corrected_campaign"),
     "bearing": ("bearings.judge", "judge_bearing"),
     "compare": ("comparison.compare", "compare"),
@@ -96,6 +99,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "Campaign": ("campaign", "Campaign"),
     "Checks": ("instruments.checks", "Checks"),
     "Comparison": ("comparison.result", "Comparison"),
+    "Consequence": ("studies.consequence.result", "Consequence"),
     "Diagnosis": ("diagnosis.result", "Diagnosis"),
     "Discovery": ("discovery.result", "Discovery"),
     "Effect": ("effects", "Effect"),
@@ -130,6 +134,7 @@ __all__ = [
     "Campaign",
     "Checks",
     "Comparison",
+    "Consequence",
     "Diagnosis",
     "Discovery",
     "Effect",
@@ -157,6 +162,7 @@ __all__ = [
     "campaigns",
     "channels",
     "compare",
+    "consequence",
     "corrected_campaign",
     "diagnose",
     "discover",

@@ -11,6 +11,7 @@ from slipwise.cli import (
     bench,
     campaign,
     catalogue,
+    consequence,
     demo,
     diagnose,
     discover,
@@ -44,6 +45,7 @@ for command in (
 app.command("next")(next_test.next_motion)
 app.command()(plan.plan)
 app.command()(bearing.bearing)
+app.command()(consequence.consequence)
 app.add_typer(export.app, name="export")
 for command in (
     ensemble.ensemble, bench.bench, paper.paper, view.view, catalogue.rigs, catalogue.channels, catalogue.motions,

@@ -84,7 +84,7 @@ def _to_and_fro(law: Predictor, largest: float, count: int) -> tuple[Array, Arra
     way = np.concatenate([[0], *(_steps(a, b) for a, b in zip(turns[:-1], turns[1:], strict=True))]) * step
     time = np.linspace(0.0, _SLOW, len(way))
     moved = np.repeat(way[:, None], 2 * count, axis=1).reshape(-1, count, 2)
-    force = law.buffers(time, moved, np.gradient(moved, time, axis=0))
+    force = law.buffers(time, moved, np.asarray(np.gradient(moved, time, axis=0)))
     law.reset()
     down = force[3 * points : 5 * points + 1][::-1]
     return force[7 * points : 9 * points + 1], down, force[9 * points :]

@@ -1,7 +1,7 @@
 """Ensembles: many motions, many scales, and numbers that are known only within ranges."""
 
 from slipwise.studies.ensemble.distributions import SAMPLINGS, Varied, read_varied
-from slipwise.studies.ensemble.member import Base, Shaken, run_shaken
+from slipwise.studies.ensemble.member import Base, FileBase, Shaken, run_shaken
 from slipwise.studies.ensemble.responses import RESPONSES, Limit, Response
 from slipwise.studies.ensemble.run import Ensemble, run_scaled
 from slipwise.studies.ensemble.scales import read_scales
@@ -14,6 +14,7 @@ __all__ = [
     "Base",
     "Ensemble",
     "Exceedance",
+    "FileBase",
     "Limit",
     "Quantiles",
     "Response",

@@ -1,4 +1,4 @@
-"""What differs from member to member: numbers of the rig and of effects, drawn between two ends."""
+"""What differs from member to member: numbers of the rig and of effects, drawn between two ends or from an interval."""
 
 import re
 import warnings
@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.stats import qmc
+from scipy.stats import norm, qmc
 
 from slipwise.arrays import Array
 from slipwise.errors import SettingError, unknown_name
@@ -15,6 +15,8 @@ from slipwise.rig.known import SPECIMEN_UNITS, better_known
 from slipwise.units import quantity
 
 SAMPLINGS = ("sobol", "latin")
+#: Half the width of a 95 % interval, and how far from its value a number is drawn, in standard deviations.
+_REACH, _FARTHEST = float(norm.ppf(0.975)), 3.0
 #: "9..11t", "9 t..11 t", "-2..2 %": two ends, the first of which may leave its unit to the second.
 _RANGE = re.compile(r"\s*(?P<low>[-+\d.eE]*\d\.?)\s*(?P<low_unit>[^\d.+-][^.]*)?\.\.\s*(?P<high>[-+.\d].*)")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
@@ -30,6 +32,9 @@ class Varied:
         high: upper end [unit].
         unit: SI unit.
         whole: whether only whole numbers make sense.
+        value: None for a number that is uniform between its ends; else the ends are those of a 95 % interval about it,
+            and each side of it is half of a normal distribution.
+        bounds: what no draw passes.
     """
 
     key: str
@@ -37,6 +42,8 @@ class Varied:
     high: float
     unit: str
     whole: bool = False
+    value: float | None = None
+    bounds: tuple[float, float] = (-np.inf, np.inf)
 
 
 def read_varied(text: str, model: Model) -> Varied:
@@ -92,7 +99,7 @@ def with_values(model: Model, values: Mapping[str, float]) -> Model:
 
 
 def draw(varied: Sequence[Varied], count: int, sampling: str, seed: int) -> Array:
-    """Draw values, uniform between their ends.
+    """Draw values, independent of each other.
 
     Args:
         varied: what is drawn, at least one.
@@ -115,6 +122,11 @@ def draw(varied: Sequence[Varied], count: int, sampling: str, seed: int) -> Arra
         unit = make(len(varied), seed=generator).random(count)  # pyright: ignore[reportCallIssue]
     low, high = (np.array([getattr(v, end) for v in varied]) for end in ("low", "high"))
     values = low + unit * (high - low)
+    for column, one in enumerate(varied):
+        if one.value is not None:
+            normal = np.clip(norm.ppf(unit[:, column]), -_FARTHEST, _FARTHEST) / _REACH
+            side = np.where(normal < 0.0, one.value - one.low, one.high - one.value)
+            values[:, column] = np.clip(one.value + normal * side, *one.bounds)
     whole = [v.whole for v in varied]
     values[:, whole] = np.round(values[:, whole])
     return values

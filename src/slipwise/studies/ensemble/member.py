@@ -11,6 +11,7 @@ import numpy as np
 from slipwise.effects import find_effect
 from slipwise.errors import SettingError
 from slipwise.model import Model, base_model, use
+from slipwise.model.file import load_model
 from slipwise.motion import TableMotion, load_motion, scale
 from slipwise.rig.files import find_rig
 from slipwise.simulation.replay import replay
@@ -55,6 +56,34 @@ class Base:
 
 
 @dataclass(frozen=True)
+class FileBase:
+    """What all members share, as a model.toml: any process that sees the file can make the model of it.
+
+    Attributes:
+        path: of the file. Effect files that it names are run: whoever makes a base has been trusted with them.
+        digest: hash of the file, so that one that was written anew is another base.
+    """
+
+    path: str
+    digest: str
+
+    def model(self) -> Model:
+        """Make the model.
+
+        Raises:
+            SlipwiseError: the file, or one that it names, cannot be read.
+        """
+        return load_model(self.path, trust=True)
+
+    def key(self) -> str:
+        """Return a hash of what all members share, the code included."""
+        model = self.model()
+        files = [model.specimen.path, *(use.effect.path for use in model.uses)]
+        contents = [hashlib.sha256(path.read_bytes()).hexdigest() for path in files]
+        return key_of([self.digest, contents], __name__)
+
+
+@dataclass(frozen=True)
 class Shaken:
     """One member.
 
@@ -65,7 +94,7 @@ class Shaken:
         factor: on its acceleration.
     """
 
-    base: Base
+    base: Base | FileBase
     values: tuple[tuple[str, float], ...]
     motion: TableMotion | str
     factor: float
@@ -103,7 +132,7 @@ def _shaken(member: Shaken) -> dict[str, Any]:
 
 
 @lru_cache(maxsize=4)
-def _model(base: Base) -> Model:
+def _model(base: Base | FileBase) -> Model:
     return base.model()
 
 
@@ -120,12 +149,14 @@ def _numbers(answer: Replay, model: Model) -> dict[str, Any]:
     record, pads = answer.record, model.specimen.pads
     lifted = np.array([record[f"pad_{pad}_N"] <= 0.0 for pad in pads]).any(axis=0)
     gaps = [u.values["clearance"] for u in model.uses if u.effect.name == "key_clearance"]
+    buffers = [np.hypot(record[f"buffer_{b.name}_Fx"], record[f"buffer_{b.name}_Fy"]) for b in model.specimen.buffers]
     farthest = max(abs(end) for end in (*answer.slip_range, *answer.slip_y_range))
     return {
         "slip": answer.largest_slip,
         "slip_x": max(abs(end) for end in answer.slip_range),
         "residual_slip": float(np.hypot(record["slip_x"][-1], record["slip_y"][-1])),
         "pad_load": max(high for _, high in answer.load_range.values()),
+        "buffer_force": max((float(force.max()) for force in buffers), default=0.0),
         "uplift": answer.uplift,
         "uplifts": int(np.count_nonzero(np.diff(lifted.astype(int), prepend=0) > 0)),
         "energy": sum(answer.pad_energy.values()),

@@ -19,15 +19,20 @@ from slipwise.studies.ensemble.responses import RESPONSES
 _ROWS = 4096
 
 
-def write_members(rows: Iterable[dict[str, Any]], varied: Sequence[Varied], path: Path) -> None:
+def write_members(
+    rows: Iterable[dict[str, Any]], varied: Sequence[Varied], path: Path, *, of_models: bool = False
+) -> None:
     """Write the table; the same rows give the same bytes.
 
     Args:
         rows: motion, scale, member, the drawn values by key, and what `run_shaken` gives.
         varied: what was drawn.
         path: of the file.
+        of_models: whether rows also say of which "model" they are.
     """
     schema = _schema(varied)
+    if of_models:
+        schema = schema.insert(0, pa.field("model", pa.string(), nullable=False))
     with atomic(path) as stream, pq.ParquetWriter(stream, schema, compression="zstd") as writer:
         left = iter(rows)
         while batch := list(islice(left, _ROWS)):

@@ -29,6 +29,7 @@ RESPONSES: tuple[Response, ...] = (
     Response("slip_x", "m", "mm", "largest slip along x"),
     Response("residual_slip", "m", "mm", "slip at the end of the motion"),
     Response("pad_load", "N", "kN", "largest load of a pad"),
+    Response("buffer_force", "N", "kN", "largest force of a buffer"),
     Response("uplift", "s", "s", "time with a pad lifted off"),
     Response("uplifts", "1", "1", "times that a pad lifted off, as the record shows them"),
     Response("energy", "J", "kN*cm", "energy dissipated by the pads"),

@@ -38,6 +38,12 @@ def _bearing(found: Any) -> Figure:
     return loops_figure(found)
 
 
+def _consequence(found: Any) -> Figure:
+    from slipwise.view.figures.consequence_figure import consequence_figure
+
+    return consequence_figure(found)
+
+
 def _diagnosis(found: Any) -> Figure:
     from slipwise.view.figures.diagnosis_figures import balances_figure
 
@@ -141,6 +147,7 @@ _PICTURES: dict[str, Callable[[Any], Figure]] = {
     "Campaign": _campaign,
     "Checks": lambda checks: _audit(checks.report),
     "Comparison": _comparison,
+    "Consequence": _consequence,
     "Diagnosis": _diagnosis,
     "Discovery": _discovery,
     "Effect": _effect,
