@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from slipwise.jobs import executors
     from slipwise.model import Model, base_model, use
     from slipwise.model.file import load_model, save_model
+    from slipwise.monitoring.watch import News, watch
     from slipwise.motion import TableMotion, load_motion
     from slipwise.params import Parameter
     from slipwise.record import Record, read_record, write_record
@@ -81,6 +82,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "add": ("session.model_change", "add"),
     "remove": ("session.model_change", "remove"),
     "next_test": ("design.next_test", "next_test"),
+    "watch": ("monitoring.watch", "watch"),
     "read_record": ("record", "read_record"),
     "write_record": ("record", "write_record"),
     "quantity": ("units", "quantity"),
@@ -95,6 +97,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "Ladder": ("diagnosis.ladder", "Ladder"),
     "Limits": ("design.motions", "Limits"),
     "ModelChange": ("session.model_change", "ModelChange"),
+    "News": ("monitoring.watch", "News"),
     "NextTest": ("design.next_test", "NextTest"),
     "Parameter": ("params", "Parameter"),
     "Record": ("record", "Record"),
@@ -127,6 +130,7 @@ __all__ = [
     "Limits",
     "Model",
     "ModelChange",
+    "News",
     "NextTest",
     "Parameter",
     "Record",
@@ -166,6 +170,7 @@ __all__ = [
     "rig",
     "save_model",
     "use",
+    "watch",
     "workbench",
     "write_record",
 ]

@@ -66,12 +66,16 @@ ARROWS: dict[str, str] = {
         "campaign comparison diagnosis discovery display effects errors estimation evidence jobs model motion"
         " preparation record relations selection signals simulation units"
     ),
+    "monitoring": (
+        "campaign comparison data_files design diagnosis effects errors instruments model preparation record"
+    ),
     "session": (
         "arrays campaign comparison diagnosis discovery display effects errors estimation jobs model preparation record"
         " relations rig selection simulation units"
     ),
     "view": (
-        "arrays bearings channels comparison diagnosis discovery effects errors estimation jobs noise params record"
+        "arrays bearings channels comparison diagnosis discovery effects errors estimation jobs monitoring noise params"
+        " record"
         " relations residual_map rig selection signals studies units"
     ),
     "cli": "errors jobs view",

@@ -37,7 +37,7 @@ _TEMPERATURES = (70.0, 2000.0)
 
 
 @dataclass(frozen=True)
-class _File:
+class MeasuredFile:
     """A data file as channels in SI, before any window."""
 
     time: Array
@@ -64,15 +64,32 @@ def load_campaign(folder: Path | str) -> Campaign:
     if not folder.is_dir():
         raise InputError(f"{folder}: no such folder; a campaign is a folder with campaign.toml and data files")
     settings = read_settings(folder / "campaign.toml")
-    specimen = better_known(load_specimen(settings.rig, folder), settings.specimen, "campaign.toml")
-    files: dict[str, _File] = {}
-    runs: list[Run] = []
-    for run in settings.runs:
-        if run.file not in files:
-            files[run.file] = _read_file(folder / run.file, settings, specimen)
-        runs.append(_run(run, files[run.file], settings))
+    specimen = specimen_of(folder, settings)
+    names = dict.fromkeys(run.file for run in settings.runs)
+    return assemble(folder, settings, specimen, {name: read_file(folder / name, settings, specimen) for name in names})
+
+
+def specimen_of(folder: Path, settings: Settings) -> Specimen:
+    """Return the rig of a campaign, with what its [specimen] knows better."""
+    return better_known(load_specimen(settings.rig, folder), settings.specimen, "campaign.toml")
+
+
+def assemble(folder: Path, settings: Settings, specimen: Specimen, files: Mapping[str, MeasuredFile]) -> Campaign:
+    """Make a campaign of files that were read.
+
+    Args:
+        folder: with campaign.toml.
+        settings: what that says; of the runs those that are wanted.
+        specimen: as `specimen_of` gives it.
+        files: the file of every run, by the name that the run gives it.
+
+    Raises:
+        InputError: a window that is missing, runs of one name or of two rigs, or a run that is held out and fitted.
+    """
+    runs = [_run(run, files[run.file], settings) for run in settings.runs]
     _check_names(runs)
-    notes = [*dict.fromkeys(note for file in files.values() for note in file.notes), *check_untouched(runs)]
+    used = [files[name] for name in dict.fromkeys(run.file for run in settings.runs)]
+    notes = [*dict.fromkeys(note for file in used for note in file.notes), *check_untouched(runs)]
     notes += _outside(folder, settings)
     campaign = Campaign(
         name=settings.name,
@@ -111,7 +128,18 @@ def as_campaign(given: Campaign | Path | str) -> Campaign:
     return load_campaign(given)
 
 
-def _read_file(path: Path, settings: Settings, specimen: Specimen) -> _File:
+def read_file(path: Path, settings: Settings, specimen: Specimen) -> MeasuredFile:
+    """Read a data file as channels in SI.
+
+    Args:
+        path: of it.
+        settings: of its campaign: what columns are, constants and derived channels.
+        specimen: whose pads and buffers the channels are of.
+
+    Raises:
+        InputError: the file, a column or its times cannot be used.
+        UnitError: a unit that is missing, unknown or of the wrong dimension.
+    """
     table = open_table(path)
     chosen, notes = _choose(table, settings.columns, specimen)
     read = table.columns([i for i, _ in chosen])
@@ -154,7 +182,7 @@ def _read_file(path: Path, settings: Settings, specimen: Specimen) -> _File:
         for name, source in ((f"slip_{axis}", f"slip_v{axis}"), (f"table_a{axis}", f"table_d{axis}")):
             wild += inherited(wild, name, [source]) if any(word.startswith(f"{name} is") for word in added) else ()
     made = tuple(f"{path.name}: {word}" for word in added)
-    return _File(time, channels, _sha256(table.path), (*table.notes, *words, *made, *notes), wild, made, computed)
+    return MeasuredFile(time, channels, _sha256(table.path), (*table.notes, *words, *made, *notes), wild, made, computed)
 
 
 def _check_temperatures(name: str, channels: Mapping[str, Array]) -> None:
@@ -253,7 +281,7 @@ def _check_names(runs: Sequence[Run]) -> None:
             raise InputError(f"campaign.toml lists the run {run.name!r} ({run.file}) twice; remove one of them")
 
 
-def _run(run: RunSettings, file: _File, settings: Settings) -> Run:
+def _run(run: RunSettings, file: MeasuredFile, settings: Settings) -> Run:
     files = {other.file for other in settings.runs}
     stem = Path(run.file).stem
     name = stem if sum(Path(f).stem == stem for f in files) == 1 else str(Path(run.file).with_suffix(""))

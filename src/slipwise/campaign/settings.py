@@ -67,8 +67,12 @@ class Settings:
     sample_rate: float | None = None
 
 
-def read_settings(path: Path) -> Settings:
+def read_settings(path: Path, *, runs_needed: bool = True) -> Settings:
     """Read and check campaign.toml.
+
+    Args:
+        path: of it.
+        runs_needed: refuse one that names no run yet.
 
     Raises:
         InputError: no file, no TOML, or something that is needed is missing.
@@ -83,12 +87,12 @@ def read_settings(path: Path) -> Settings:
         raise InputError(f"{path}: not valid TOML: {error}") from None
     _keys(content, _TOP, f"{path.name}")
     for needed, example in (("rig", '"bridge1"'), ("run", '[[run]] with file = "..." and role = "fit"')):
-        if needed not in content:
+        if needed not in content and (needed != "run" or runs_needed):
             raise InputError(f"{path}: {needed!r} is missing; write for example {example}")
     tables = ("specimen", "columns", "constants", "derived", "logger", "materiality")
     part = {key: _table(content.get(key, {}), f"[{key}] of {path.name}") for key in tables}
-    runs = content["run"]
-    if not isinstance(runs, list) or not runs:
+    runs = content.get("run", [])
+    if not isinstance(runs, list) or (not runs and "run" in content):
         raise InputError(f"{path}: runs are written as [[run]] with double brackets, one for each run")
     return Settings(
         name=_text(content.get("name", path.resolve().parent.name), "name", path.name),

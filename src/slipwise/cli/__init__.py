@@ -21,6 +21,7 @@ from slipwise.cli import (
     paper,
     replay,
     view,
+    watch,
     workbench,
 )
 from slipwise.cli.exit_codes import run_to_its_end
@@ -41,6 +42,7 @@ for command in (
     app.command()(command)
 app.command("next")(next_test.next_motion)
 app.command()(bearing.bearing)
+app.command()(watch.watch)
 for command in (
     ensemble.ensemble, bench.bench, paper.paper, view.view, catalogue.rigs, catalogue.channels, catalogue.motions,
     effects.effects,

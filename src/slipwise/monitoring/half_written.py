@@ -1,0 +1,40 @@
+"""Whether a data file is whole, by its last bytes: a logger that still writes stops in the middle of a line."""
+
+from pathlib import Path
+from typing import Literal
+
+from slipwise.data_files.table import TEXT_SUFFIXES
+
+#: "open": its last line has no end and as many columns as the line before: it may be whole, or cut in its last number.
+Ending = Literal["whole", "open", "cut"]
+#: Bytes at the end of a file in which two lines of a table lie.
+_TAIL = 1 << 17
+
+
+def how_it_ends(path: Path) -> Ending:
+    """Return how a data file ends; one that is no text tells nothing, and counts as whole.
+
+    Raises:
+        OSError: it cannot be read.
+    """
+    if path.suffix.lower() not in TEXT_SUFFIXES:
+        return "whole"
+    with path.open("rb") as stream:
+        stream.seek(max(stream.seek(0, 2) - _TAIL, 0))
+        tail = stream.read().replace(b"\x00", b"")  # two bytes a character, as some loggers write
+    if not tail.strip():
+        return "cut"
+    if tail.endswith((b"\n", b"\r")):
+        return "whole"
+    lines = tail.splitlines()
+    if len(lines) < 2:
+        return "cut"
+    return "cut" if _cells(lines[-1]) < _cells(lines[-2]) else "open"
+
+
+def _cells(line: bytes) -> int:
+    """Count the columns of a line of a table."""
+    for separator in (b"\t", b";", b","):
+        if separator in line:
+            return line.count(separator) + 1
+    return len(line.split())
