@@ -48,6 +48,8 @@ if TYPE_CHECKING:
     from slipwise.monitoring.watch import News, watch
     from slipwise.motion import TableMotion, load_motion
     from slipwise.params import Parameter
+    from slipwise.prediction.judge import judge_prediction
+    from slipwise.prediction.result import PredictionReport
     from slipwise.record import Record, read_record, write_record
     from slipwise.session.model_change import ModelChange, add, remove
     from slipwise.session.session import Session
@@ -83,6 +85,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "remove": ("session.model_change", "remove"),
     "next_test": ("design.next_test", "next_test"),
     "watch": ("monitoring.watch", "watch"),
+    "judge_prediction": ("prediction.judge", "judge_prediction"),
     "read_record": ("record", "read_record"),
     "write_record": ("record", "write_record"),
     "quantity": ("units", "quantity"),
@@ -100,6 +103,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "News": ("monitoring.watch", "News"),
     "NextTest": ("design.next_test", "NextTest"),
     "Parameter": ("params", "Parameter"),
+    "PredictionReport": ("prediction.result", "PredictionReport"),
     "Record": ("record", "Record"),
     "Replay": ("simulation.simulator", "Replay"),
     "Session": ("session.session", "Session"),
@@ -133,6 +137,7 @@ __all__ = [
     "News",
     "NextTest",
     "Parameter",
+    "PredictionReport",
     "Record",
     "Replay",
     "Session",
@@ -155,6 +160,7 @@ __all__ = [
     "ensemble",
     "executors",
     "init_campaign",
+    "judge_prediction",
     "ladder",
     "load_campaign",
     "load_model",

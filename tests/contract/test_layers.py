@@ -69,14 +69,17 @@ ARROWS: dict[str, str] = {
     "monitoring": (
         "campaign comparison data_files design diagnosis effects errors instruments model preparation record"
     ),
+    "prediction": (
+        "arrays campaign data_files diagnosis display effects errors estimation evidence jobs model noise preparation"
+        " record rig signals"
+    ),
     "session": (
         "arrays campaign comparison diagnosis discovery display effects errors estimation jobs model preparation record"
         " relations rig selection simulation units"
     ),
     "view": (
         "arrays bearings channels comparison diagnosis discovery effects errors estimation jobs monitoring noise params"
-        " record"
-        " relations residual_map rig selection signals studies units"
+        " prediction record relations residual_map rig selection signals studies units"
     ),
     "cli": "errors jobs view",
     "workbench": (

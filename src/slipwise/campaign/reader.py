@@ -320,5 +320,8 @@ def _run(run: RunSettings, file: MeasuredFile, settings: Settings) -> Run:
 
 
 def _sha256(path: Path) -> str:
+    if path.is_dir():  # of a run that lies in several files
+        every = "".join(_sha256(file) for file in sorted(path.iterdir()) if file.is_file())
+        return hashlib.sha256(every.encode()).hexdigest()
     with path.open("rb") as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest()

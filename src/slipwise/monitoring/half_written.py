@@ -29,12 +29,6 @@ def how_it_ends(path: Path) -> Ending:
     lines = tail.splitlines()
     if len(lines) < 2:
         return "cut"
-    return "cut" if _cells(lines[-1]) < _cells(lines[-2]) else "open"
-
-
-def _cells(line: bytes) -> int:
-    """Count the columns of a line of a table."""
-    for separator in (b"\t", b";", b","):
-        if separator in line:
-            return line.count(separator) + 1
-    return len(line.split())
+    last, whole = lines[-1], lines[-2]
+    separator = next((mark for mark in (b"\t", b";", b",") if mark in whole), None)
+    return "cut" if len(last.split(separator)) < len(whole.split(separator)) else "open"

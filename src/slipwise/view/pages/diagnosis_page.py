@@ -1,5 +1,6 @@
 """The page of a diagnosis: the verdict in a sentence, the evidence, the rivals, and what would change our mind."""
 
+from collections.abc import Sequence
 from math import isfinite
 
 from slipwise.diagnosis.alternatives import list_discriminating_tests, list_explanations
@@ -31,21 +32,22 @@ _HEADLINES = {
 }
 
 
-def diagnosis_page(found: Diagnosis, ladder: Ladder | None = None) -> str:
+def diagnosis_page(found: Diagnosis, ladder: Ladder | None = None, first: Sequence[Section] = ()) -> str:
     """Make the page.
 
     Args:
         found: the diagnosis.
         ladder: the falling error, where it was climbed.
+        first: what stands before everything else.
 
     Returns:
         The text of a self-contained HTML file.
     """
     with styled():
-        return _page(found, ladder)
+        return _page(found, ladder, first)
 
 
-def _page(found: Diagnosis, ladder: Ladder | None) -> str:
+def _page(found: Diagnosis, ladder: Ladder | None, before: Sequence[Section]) -> str:
     error = error_name(found)
     facts = {
         "probability": f"{100 * found.verdict.probability:.0f} %",
@@ -58,6 +60,7 @@ def _page(found: Diagnosis, ladder: Ladder | None) -> str:
     box = verdict(_headline(found), words, _TONES[found.verdict.kind], facts)  # type: ignore[arg-type]
     shape = found.verdict.leftover == "unknown" and found.verdict.surface is not None
     sections = [
+        *before,
         importance_section(found),
         _evidence(found),
         _falling(ladder) if ladder is not None else None,

@@ -1,0 +1,183 @@
+"""What is said of another program's model: what it is, what it lacks, which of its numbers are off, what that costs."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from slipwise.diagnosis.result import Diagnosis
+from slipwise.display import Tabular
+from slipwise.noise.level import is_at_floor
+from slipwise.prediction.friction_families import FittedLaw
+
+#: Number of the format of predicted.json.
+SCHEMA = 1
+
+
+@dataclass(frozen=True)
+class ComparedNumber:
+    """A number of the model beside what the campaign says.
+
+    Attributes:
+        key: "rig.mass", "key_clearance.clearance" ... or "friction".
+        theirs: read back from the prediction [SI].
+        measured: fitted to the campaign [SI].
+        low: lower end of the 95 % interval of the latter; None where there is none.
+        high: upper end.
+        unit: SI unit.
+        costs: mean squared residual that their value adds in the balance in which it adds most [noise variance].
+        off: whether it is wrong, and matters.
+    """
+
+    key: str
+    theirs: float
+    measured: float
+    low: float | None
+    high: float | None
+    unit: str
+    costs: float
+    off: bool
+
+
+@dataclass(frozen=True)
+class ComparedRun:
+    """A run as it was predicted beside the measurement.
+
+    Attributes:
+        run: its name.
+        peak_slip: measured, then predicted [m].
+        slip_error: rms of the difference of slip over the rms of the measured slip [1]; NaN without slip.
+        force_error: the same of the friction of all pads [1]; NaN without it.
+        load_change: rms of what the loads of the pads change by, over their mean: measured, then predicted [1].
+    """
+
+    run: str
+    peak_slip: tuple[float, float]
+    slip_error: float
+    force_error: float
+    load_change: tuple[float, float]
+
+
+@dataclass(frozen=True, repr=False)
+class PredictionReport(Tabular):
+    """What a campaign says of the model that predicted it.
+
+    Attributes:
+        campaign: its name.
+        law: the law of friction that was calculated with.
+        effects: what else the model holds, by the names of the catalogue.
+        loads: how its loads vary, and whether friction follows them, in a sentence.
+        lacks: what it lacks -> why, in a sentence: effects of the catalogue, "speed dependence", "pressure dependence",
+            "friction that follows the load", "loads that vary".
+        surplus: effects that it holds and the campaign does not show.
+        numbers: of the model beside those of the campaign.
+        runs: as predicted and as measured.
+        errors: rung -> relation -> error in floors: "as it is", "its numbers corrected", "what it lacks added".
+        beyond: what stays beyond its reach, a sentence each.
+        notes: of the reading.
+        read: the diagnosis of the prediction by itself.
+        found: the diagnosis of the measured campaign.
+        seconds: it took.
+    """
+
+    campaign: str
+    law: FittedLaw
+    effects: tuple[str, ...]
+    loads: str
+    lacks: Mapping[str, str]
+    surplus: tuple[str, ...]
+    numbers: tuple[ComparedNumber, ...]
+    runs: tuple[ComparedRun, ...]
+    errors: Mapping[str, Mapping[str, float]]
+    beyond: tuple[str, ...]
+    notes: tuple[str, ...]
+    read: Diagnosis
+    found: Diagnosis
+    seconds: float
+
+    @property
+    def off(self) -> tuple[str, ...]:
+        """Numbers that are wrong and matter, the most costly first."""
+        return tuple(n.key for n in sorted(self.numbers, key=lambda n: -n.costs) if n.off)
+
+    @property
+    def worst(self) -> dict[str, float]:
+        """The error of each rung in the balance in which it is largest, in floors."""
+        return {rung: max(errors.values()) for rung, errors in self.errors.items() if errors}
+
+    @property
+    def sentence(self) -> str:
+        """What is wrong with the model, in a sentence."""
+        if not self.lacks and not self.off:
+            return "The model holds all that matters in this campaign, and its numbers are right."
+        parts = []
+        if self.lacks:
+            parts.append(f"it lacks {' and '.join(self.lacks)}")
+        if self.off:
+            parts.append(f"{' and '.join(self.off)} {'is' if len(self.off) == 1 else 'are'} off")
+        worst = [f"{x:.2g}" for x in self.worst.values()]
+        words = ", and ".join(parts)
+        fall = f"; its error falls from {' to '.join(worst)} times the noise floor" if len(worst) > 1 else ""
+        return f"{words[0].upper()}{words[1:]}{fall}."
+
+    def as_json(self) -> dict[str, Any]:
+        """Return what predicted.json holds."""
+        return {
+            "schema": SCHEMA,
+            "campaign": self.campaign,
+            "words": self.sentence,
+            "law": {
+                "family": self.law.family.name,
+                "words": self.law.family.words,
+                "numbers": {n: {"value": v, "unit": self.law.family.numbers[n][0]} for n, v in self.law.numbers.items()},
+                "left": self.law.left,
+            },
+            "effects": list(self.effects),
+            "loads": self.loads,
+            "lacks": dict(self.lacks),
+            "surplus": list(self.surplus),
+            "off": list(self.off),
+            "numbers": self._rows(),
+            "runs": [
+                {
+                    "run": run.run,
+                    "peak_slip": _pair(run.peak_slip),
+                    "slip_error": _number(run.slip_error),
+                    "force_error": _number(run.force_error),
+                    "load_change": _pair(run.load_change),
+                }
+                for run in self.runs
+            ],
+            "errors": {rung: {k: _number(v) for k, v in errors.items()} for rung, errors in self.errors.items()},
+            "beyond": list(self.beyond),
+            "notes": list(self.notes),
+            "read_back": self.read.sentence,
+            "measured": self.found.sentence,
+            "at_floor": bool(self.worst) and is_at_floor(list(self.worst.values())[-1]),
+            "seconds": round(self.seconds, 1),
+        }
+
+    def _headline(self) -> str:
+        return f"{self.campaign}: {self.sentence}"
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return [
+            {
+                "number": n.key,
+                "model": _number(n.theirs),
+                "campaign": _number(n.measured),
+                "low": None if n.low is None else _number(n.low),
+                "high": None if n.high is None else _number(n.high),
+                "unit": n.unit,
+                "costs": _number(n.costs),
+                "off": n.off,
+            }
+            for n in self.numbers
+        ]
+
+
+def _pair(values: tuple[float, float]) -> dict[str, float | None]:
+    return {"measured": _number(values[0]), "predicted": _number(values[1])}
+
+
+def _number(value: float) -> float | None:
+    return float(f"{value:.5g}") if value == value and abs(value) != float("inf") else None

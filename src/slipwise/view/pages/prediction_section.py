@@ -1,0 +1,27 @@
+"""The part of a diagnosis' page on another program's model: what it is, what it lacks, which numbers are off."""
+
+from slipwise.prediction.result import PredictionReport
+from slipwise.view.pages.html import Section, bullets, details, paragraph, table
+from slipwise.view.words.prediction_words import error_rows, number_rows, prediction_answers, run_rows
+
+
+def prediction_section(found: PredictionReport) -> Section:
+    """Make the section."""
+    off = [place for place, one in enumerate(found.numbers) if one.off]
+    numbers = [
+        paragraph("The numbers of the model beside those of the campaign, with their 95 % intervals."),
+        table(number_rows(found.numbers), marked=off),
+    ]
+    runs = "As predicted and as measured, with no fit at all; errors are rms, over the rms of the measurement."
+    read = f"The prediction by itself, read as if this campaign's gauges had recorded it: {found.read.sentence}"
+    return Section(
+        "The model that predicted these runs",
+        [
+            paragraph(found.sentence),
+            *(paragraph(f"{question} {answer}") for question, answer in prediction_answers(found)),
+            table(error_rows(found), "Error of every balance of the rig, on measured states, in noise floors"),
+            *numbers,
+            table(run_rows(found), runs),
+            details("How the model was read back", [paragraph(read), *([bullets(found.notes)] if found.notes else [])]),
+        ],
+    )
