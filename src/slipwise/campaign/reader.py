@@ -182,7 +182,9 @@ def read_file(path: Path, settings: Settings, specimen: Specimen) -> MeasuredFil
         for name, source in ((f"slip_{axis}", f"slip_v{axis}"), (f"table_a{axis}", f"table_d{axis}")):
             wild += inherited(wild, name, [source]) if any(word.startswith(f"{name} is") for word in added) else ()
     made = tuple(f"{path.name}: {word}" for word in added)
-    return MeasuredFile(time, channels, _sha256(table.path), (*table.notes, *words, *made, *notes), wild, made, computed)
+    return MeasuredFile(
+        time, channels, _sha256(table.path), (*table.notes, *words, *made, *notes), wild, made, computed
+    )
 
 
 def _check_temperatures(name: str, channels: Mapping[str, Array]) -> None:

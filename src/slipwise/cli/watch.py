@@ -25,7 +25,7 @@ def watch(
     effect: Own = None,
     trust: Trusted = False,
 ) -> None:
-    """Look at a campaign's folder, and judge each run as it comes in: gauges, what is missing, where, which motion next.
+    """Judge each run as it comes into a campaign's folder: gauges, what is missing, where, which motion next.
 
     campaign.toml may name runs that are still to come, or none: a data file that is younger than it is a run of role
     fit. A file that is still being written is waited for. Open watch.html in a browser: it reads itself again. Ctrl-C
@@ -46,7 +46,9 @@ def watch(
     folder, name = out_folder(out), campaign.resolve().name
     page = folder / "watch.html"
     last: sw.News | None = None
+    say(f"open {page.resolve().as_uri()}; Ctrl-C ends the watch")
     try:
+        save_page(watch_page(name, (), ()), page)
         with steps() as tell:
             day = sw.watch(
                 campaign, folder / "watch.json", model=model, trust=trust or effect or (), own=own, limits=limits,
@@ -56,8 +58,6 @@ def watch(
                 for words in news_words(news, last):
                     say(words)
                 save_page(watch_page(name, news.steps, news.waiting), page)
-                if last is None:
-                    say(f"open {page.resolve().as_uri()}; Ctrl-C ends the watch")
                 last = news
                 if news.found is not None:
                     write_diagnosis(news.found, out_folder(folder / news.steps[-1].report), recording=False)

@@ -57,7 +57,9 @@ def read_sap2000(path: Path) -> NamedColumns:
     whole: dict[str, Array] = {_TIME: np.array(times)}
     for name, steps in columns.items():
         if len(steps) != len(times):
-            raise InputError(f"{path}: {name} has {len(steps)} steps of {len(times)}; export all objects of one case alone")
+            raise InputError(
+                f"{path}: {name} has {len(steps)} steps of {len(times)}; export all objects of one case alone"
+            )
         whole[name] = np.array([steps[time] for time in times])
     return NamedColumns(whole)
 

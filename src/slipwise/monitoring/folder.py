@@ -93,7 +93,8 @@ class Observer:
         runs += [RunSettings(name, "fit", None, None) for name in unnamed]
         notices += [
             f"{name} is not in campaign.toml: it is taken as a run of role fit; a [[run]] there gives it another role, "
-            "and moved away it is left out" for name in unnamed
+            "and moved away it is left out"
+            for name in unnamed
         ]
         return FolderState(
             replace(settings, runs=tuple(runs)), whole, unfinished, tuple(notices), campaign,

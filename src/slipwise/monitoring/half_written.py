@@ -7,12 +7,17 @@ from slipwise.data_files.table import TEXT_SUFFIXES
 
 #: "open": its last line has no end and as many columns as the line before: it may be whole, or cut in its last number.
 Ending = Literal["whole", "open", "cut"]
+#: What stands between columns, the likelier first: where there is a tab or a semicolon, a comma is a decimal comma.
+_SEPARATORS = (b"\t", b";", b",")
 #: Bytes at the end of a file in which two lines of a table lie.
 _TAIL = 1 << 17
 
 
 def how_it_ends(path: Path) -> Ending:
-    """Return how a data file ends; one that is no text tells nothing, and counts as whole.
+    """Return how a data file ends.
+
+    Args:
+        path: of it; one that is no text table tells nothing by its end, and counts as whole.
 
     Raises:
         OSError: it cannot be read.
@@ -29,6 +34,7 @@ def how_it_ends(path: Path) -> Ending:
     lines = tail.splitlines()
     if len(lines) < 2:
         return "cut"
+    # a name or a number may be cut as well, and nobody can see it: such a file has to stand still for longer
     last, whole = lines[-1], lines[-2]
-    separator = next((mark for mark in (b"\t", b";", b",") if mark in whole), None)
+    separator = next((mark for mark in _SEPARATORS if mark in whole), None)
     return "cut" if len(last.split(separator)) < len(whole.split(separator)) else "open"

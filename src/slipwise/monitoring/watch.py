@@ -19,7 +19,7 @@ from slipwise.instruments.checks import check_instruments
 from slipwise.model import Model
 from slipwise.model.file import load_model
 from slipwise.monitoring.folder import FolderState, Observer
-from slipwise.monitoring.gauges import find_faults_of_runs
+from slipwise.monitoring.gauges import compare_gauges, find_faults_of_runs
 from slipwise.monitoring.read_runs import RunReader
 from slipwise.monitoring.step import Step, load_steps, save_steps, short_verdict
 from slipwise.preparation.prepare import prepare
@@ -88,7 +88,7 @@ def watch(
     steps, tell = load_steps(kept), progress or (lambda words, share: None)
     observer, reader = Observer(folder, {name for step in steps for name in step.files}), RunReader(folder)
     observer.look()  # a folder that is none, or without a campaign.toml, is told at once
-    told: tuple[str, ...] | None = None
+    told: tuple[str, ...] = ()
     judged: object = None
     while True:
         seen, measured, refused, notices = _looked(observer, reader, judged)
@@ -207,17 +207,12 @@ def _judged(
     work.tell("auditing the instruments", 0.05)
     prepared = prepare(measured)
     checks = check_instruments(prepared, own=work.own)
-    alone = find_faults_of_runs(measured, step.runs, work.own) if earlier else checks.report.findings
-    before = earlier[-1].accused if earlier else ()
-    names = tuple(finding.name for finding in alone)
-    step = replace(
-        step,
-        gauges=checks.words,
-        accused=names if step.runs else before,
-        broke=tuple(f.words for f in alone if f.name not in before) if earlier else (),
-        sound=tuple(name for name in before if name not in names) if step.runs else (),
-        seconds={"audit": work.since()},
-    )
+    step = replace(step, gauges=checks.words, accused=earlier[-1].accused if earlier else ())
+    if step.runs:
+        alone = find_faults_of_runs(measured, step.runs, work.own) if earlier else checks.report.findings
+        change = compare_gauges(alone, step.accused)
+        step = replace(step, accused=change.accused, sound=change.sound, broke=change.broke if earlier else ())
+    step = replace(step, seconds={"audit": work.since()})
     yield "gauges", step, None
     try:
         found = diagnose(prepared, work.start(), own=work.own, progress=work.tell)

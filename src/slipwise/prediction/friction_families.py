@@ -76,7 +76,7 @@ class Family:
 
 
 @dataclass(frozen=True)
-class FittedLaw:
+class ReadLaw:
     """A family fitted to samples.
 
     Attributes:
@@ -145,7 +145,9 @@ def collect_sliding(runs: Sequence[Run], areas: Mapping[str, float]) -> Sliding:
             continue
         velocity = np.gradient(record["slip_x"], record.time)
         # a reversal lies between samples, where neither speed nor force is that of sliding
-        steady = (np.sign(np.roll(velocity, 1)) == np.sign(velocity)) & (np.sign(np.roll(velocity, -1)) == np.sign(velocity))
+        steady = (np.sign(np.roll(velocity, 1)) == np.sign(velocity)) & (
+            np.sign(np.roll(velocity, -1)) == np.sign(velocity)
+        )
         fast = steady & (np.abs(velocity) > _SLIDING * np.abs(velocity).max())
         for pad in pads:
             load, force = record[f"pad_{pad}_N"], record[f"pad_{pad}_Fx"] * np.sign(velocity)
@@ -162,7 +164,7 @@ def collect_sliding(runs: Sequence[Run], areas: Mapping[str, float]) -> Sliding:
     return Sliding(*(column[::thin] for column in joined))
 
 
-def fit_family(family: Family, samples: Sliding) -> FittedLaw:
+def fit_family(family: Family, samples: Sliding) -> ReadLaw:
     """Fit a family's numbers to samples by least squares."""
     size = float(np.sqrt(np.mean(samples.force**2)))
     start = np.array([value for _, value in family.numbers.values()])
@@ -172,15 +174,15 @@ def fit_family(family: Family, samples: Sliding) -> FittedLaw:
 
     found = least_squares(left, np.log(start), bounds=(np.log(start) - 12.0, np.log(start) + 12.0))
     values = dict(zip(family.numbers, map(float, np.exp(found.x)), strict=True))
-    return FittedLaw(family, values, float(np.sqrt(np.mean(found.fun**2))))
+    return ReadLaw(family, values, float(np.sqrt(np.mean(found.fun**2))))
 
 
-def fit_families(samples: Sliding) -> dict[str, FittedLaw]:
+def fit_families(samples: Sliding) -> dict[str, ReadLaw]:
     """Fit every family, name -> fitted."""
     return {family.name: fit_family(family, samples) for family in FAMILIES}
 
 
-def plainest_law(fitted: Mapping[str, FittedLaw]) -> FittedLaw:
+def plainest_law(fitted: Mapping[str, ReadLaw]) -> ReadLaw:
     """Return the plainest law that explains the samples as well as the richest one; the best where none explains."""
     least = min(law.left for law in fitted.values())
     return next(law for law in fitted.values() if law.left <= max(_EXACT, _AS_GOOD * least))

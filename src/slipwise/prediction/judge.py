@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +9,7 @@ import numpy as np
 from slipwise.campaign import Campaign, as_campaign
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.result import Diagnosis
-from slipwise.effects import Effect
+from slipwise.effects import Effect, base_effects
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit, fit_base
 from slipwise.estimation.intervals import Interval, compute_intervals
@@ -22,7 +21,7 @@ from slipwise.model.file import as_model
 from slipwise.noise.level import is_at_floor
 from slipwise.prediction.compare_runs import compare_runs
 from slipwise.prediction.friction_families import (
-    FittedLaw,
+    ReadLaw,
     Sliding,
     collect_sliding,
     fit_families,
@@ -30,7 +29,7 @@ from slipwise.prediction.friction_families import (
 )
 from slipwise.prediction.law_model import model_of_law
 from slipwise.prediction.predicted_campaign import load_predicted
-from slipwise.prediction.result import ComparedNumber, ComparedRun, PredictionReport
+from slipwise.prediction.result import RUNGS, ComparedNumber, ComparedRun, PredictionReport
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
 
@@ -39,7 +38,6 @@ _STATED = ("rig.mass", "rig.centre_height", "rig.buffer_stiffness", "rig.pitch_f
 #: Loads that change by less than this share of themselves do not vary [1]; so do those of a model that change by less
 #: than this share of what was measured.
 _VARIES, _OF_MEASURED = 0.01, 0.2
-_AS_IT_IS, _CORRECTED, _COMPLETED = "as it is", "its numbers corrected", "what it lacks added"
 
 
 @one_thread_algebra()
@@ -82,7 +80,9 @@ def judge_prediction(
     samples = collect_sliding(given.exact.runs, areas)
     law = plainest_law(fit_families(samples))
     structure = model_of_law(law, measured.specimen, float(samples.rest.mean()))
-    read = diagnose(given.recorded, structure, progress=lambda words, share: tell(f"their model: {words}", 0.45 * share))
+    read = diagnose(
+        given.recorded, structure, progress=lambda words, share: tell(f"their model: {words}", 0.45 * share)
+    )
     prepared = prepare(measured)
     start = None if model is None else as_model(model)
     found = diagnose(
@@ -133,11 +133,12 @@ def _errors(base: BaseFit, theirs: Mapping[str, float], found: Diagnosis) -> dic
     """Return the error of every relation, held out where runs are, with their numbers, with fitted ones, completed."""
     mine = {f.key for f in base.free if _is_of_model(f.key)}
     as_it_is = {**base.solution.values, **{key: theirs[key] for key in mine if key in theirs}}
-    return {
-        _AS_IT_IS: _levels(base.objective, as_it_is),
-        _CORRECTED: _levels(base.objective, base.solution.values),
-        _COMPLETED: {relation: after for relation, (_, after) in found.relations.items()},
-    }
+    rungs = (
+        _levels(base.objective, as_it_is),
+        _levels(base.objective, base.solution.values),
+        {relation: after for relation, (_, after) in found.relations.items()},
+    )
+    return dict(zip(RUNGS, rungs, strict=True))
 
 
 def _is_of_model(key: str) -> bool:
@@ -151,7 +152,7 @@ def _levels(objective: Objective, values: Mapping[str, float]) -> dict[str, floa
     return {r: left.level(r, runs) for r in objective.relations if left.count(r, runs)}
 
 
-def _law_of_campaign(found: Diagnosis) -> FittedLaw:
+def _law_of_campaign(found: Diagnosis) -> ReadLaw:
     """Return the law of friction that the measured campaign shows: the pads' model, at its own states."""
     objective, values = found.final.objective, found.final.solution.values
     predicted = objective.residuals(values).pad_forces
@@ -170,19 +171,23 @@ def _law_of_campaign(found: Diagnosis) -> FittedLaw:
 
 
 def _lacks(
-    law: FittedLaw, measured: FittedLaw, runs: tuple[ComparedRun, ...], read: Diagnosis, found: Diagnosis
+    law: ReadLaw, measured: ReadLaw, runs: tuple[ComparedRun, ...], read: Diagnosis, found: Diagnosis
 ) -> dict[str, str]:
     """Return what the model lacks, each with the reason."""
     out: dict[str, str] = {}
     one, other = law.family, measured.family
     if other.follows_load and not one.follows_load:
-        out["friction that follows the load"] = "its friction sees a constant load, that of the test the load of the moment"
+        out["friction that follows the load"] = (
+            "its friction sees a constant load, that of the test the load of the moment"
+        )
     if _are_constant(runs):
         out["loads that vary"] = "its pads carry nearly the same all the time, those of the test do not"
     if other.with_speed and not one.with_speed:
         out["speed dependence"] = "its friction is the same at all speeds, that of the test grows with speed"
     if other.with_pressure and not one.with_pressure and one.follows_load:
-        out["pressure dependence"] = "its coefficient is the same at all pressures, that of the test falls with pressure"
+        out["pressure dependence"] = (
+            "its coefficient is the same at all pressures, that of the test falls with pressure"
+        )
     named = found.verdict.effects if found.verdict.kind in ("named", "ambiguous", "unknown") else ()
     for name in named:
         if name in _physical(found) and name not in _physical(read):
@@ -198,7 +203,7 @@ def _are_constant(runs: tuple[ComparedRun, ...]) -> bool:
     return bool(measured > _VARIES and predicted < max(_OF_MEASURED * measured, 0.1 * _VARIES))
 
 
-def _loads(law: FittedLaw, runs: tuple[ComparedRun, ...]) -> str:
+def _loads(law: ReadLaw, runs: tuple[ComparedRun, ...]) -> str:
     changes = [run.load_change for run in runs if np.isfinite(run.load_change).all()]
     if not changes:
         return "The prediction has no loads of pads."
@@ -208,15 +213,15 @@ def _loads(law: FittedLaw, runs: tuple[ComparedRun, ...]) -> str:
 
 
 def _numbers(
-    theirs: Mapping[str, float], found: Diagnosis, law: FittedLaw, measured: FittedLaw, samples: Sliding
+    theirs: Mapping[str, float], found: Diagnosis, law: ReadLaw, measured: ReadLaw, samples: Sliding
 ) -> tuple[ComparedNumber, ...]:
     """Return the numbers that both have, and friction at the test's typical speed and the load at rest."""
     base = found.final
     intervals: dict[str, Interval] = {entry.key: entry for entry in compute_intervals(base).entries}
     out = [_friction(law, measured, samples, base.campaign.materiality.channel)]
-    same_law = law.family.name == measured.family.name
+    same_law, laws = law.family.name == measured.family.name, {effect.name for effect in base_effects("law")}
     for key, entry in intervals.items():
-        of_law = key.partition(".")[0] in ("shear_rate", "contact_area")
+        of_law = key.partition(".")[0] in laws
         if key not in theirs or not _is_of_model(key) or (of_law and not same_law) or key == "rig.shear_strength":
             continue
         costs = _costs(base, key, theirs[key])
@@ -233,16 +238,21 @@ def _costs(base: BaseFit, key: str, value: float) -> float:
     before = base.solution.residuals
     after = objective.residuals({**base.solution.values, key: value}, fitted_only=True)
     runs = objective.fitted
-    return max((after.mean_square(r, runs) - before.mean_square(r, runs) for r in before.relations if before.count(r, runs)), default=0.0)
+    return max(
+        (after.mean_square(r, runs) - before.mean_square(r, runs) for r in before.relations if before.count(r, runs)),
+        default=0.0,
+    )
 
 
-def _friction(law: FittedLaw, measured: FittedLaw, samples: Sliding, limit: float) -> ComparedNumber:
+def _friction(law: ReadLaw, measured: ReadLaw, samples: Sliding, limit: float) -> ComparedNumber:
     """Return the coefficient of friction of both, mean over the samples of the prediction."""
-    mine, own = (float(np.mean(one.family.law(samples, list(one.numbers.values())) / samples.load)) for one in (law, measured))
+    mine, own = (
+        float(np.mean(one.family.law(samples, list(one.numbers.values())) / samples.load)) for one in (law, measured)
+    )
     return ComparedNumber("friction", mine, own, None, None, "1", 0.0, abs(mine / own - 1.0) > limit)
 
 
-def _beyond(base: BaseFit, law: FittedLaw, lacks: Mapping[str, str], found: Diagnosis) -> tuple[str, ...]:
+def _beyond(base: BaseFit, law: ReadLaw, lacks: Mapping[str, str], found: Diagnosis) -> tuple[str, ...]:
     """Say what no number of the model mends, and what the campaign itself leaves open."""
     out = []
     left = {r: e for r, e in _levels(base.objective, base.solution.values).items() if not is_at_floor(e)}

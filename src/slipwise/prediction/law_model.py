@@ -3,10 +3,10 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from slipwise.effects import Effect, find_effect
+from slipwise.effects import Effect, base_effects
 from slipwise.model import EffectUse, Model
 from slipwise.params import Parameter
-from slipwise.prediction.friction_families import FittedLaw
+from slipwise.prediction.friction_families import ReadLaw
 from slipwise.rig import Specimen
 
 #: Saturation of the contact area at which friction no longer follows the load [1/Pa].
@@ -15,7 +15,7 @@ _SATURATED = 1e-4
 _HELD = 1e-3
 
 
-def model_of_law(law: FittedLaw, specimen: Specimen, rest: float) -> Model:
+def model_of_law(law: ReadLaw, specimen: Specimen, rest: float) -> Model:
     """Return a model that has a law that was read back.
 
     Args:
@@ -30,29 +30,29 @@ def model_of_law(law: FittedLaw, specimen: Specimen, rest: float) -> Model:
             return Model(specimen.changed(shear_strength=numbers["coefficient"] * hard), ())
         case "coulomb at constant load":
             strong = specimen.changed(shear_strength=numbers["coefficient"] * pressure)
-            return Model(strong, (_use("contact_area", {"saturation": _SATURATED}, {"saturation"}),))
+            return Model(strong, (_use("area", {"saturation": _SATURATED}, {"saturation"}),))
         case "speed":
             values = {"strength": numbers["added"] * hard, "rate": numbers["rate"], "slow": numbers["slow"]}
-            return Model(specimen, (_use("shear_rate", values),))
+            return Model(specimen, (_use("shear", values),))
         case "speed at constant load":
             # what friction has at no speed goes with the strength: a part that no load changes cannot stand by itself
             strength = (numbers["added"] + numbers["slow"]) * pressure
             uses = (
-                _use("contact_area", {"saturation": _SATURATED}, {"saturation"}),
-                _use("shear_rate", {"strength": strength, "rate": numbers["rate"], "slow": 0.0}, {"slow"}),
+                _use("area", {"saturation": _SATURATED}, {"saturation"}),
+                _use("shear", {"strength": strength, "rate": numbers["rate"], "slow": 0.0}, {"slow"}),
             )
             return Model(specimen, uses)
         case _:
             uses = (
-                _use("contact_area", {"saturation": numbers["saturation"]}),
-                _use("shear_rate", {name: numbers[name] for name in ("strength", "rate", "slow")}),
+                _use("area", {"saturation": numbers["saturation"]}),
+                _use("shear", {name: numbers[name] for name in ("strength", "rate", "slow")}),
             )
             return Model(specimen, uses)
 
 
-def _use(name: str, values: Mapping[str, float], held: set[str] | frozenset[str] = frozenset()) -> EffectUse:
-    """Return a use of an effect whose bounds hold the values, and hardly more than those that are held."""
-    effect = find_effect(name)
+def _use(port: str, values: Mapping[str, float], held: set[str] | frozenset[str] = frozenset()) -> EffectUse:
+    """Return a use of the paper's law at a port, whose bounds hold the values, and hardly more than what is held."""
+    effect = next(effect for effect in base_effects("law") if effect.port == port)
     parameters = tuple(
         _held(p, values[p.name]) if p.name in held else _holding(p, values[p.name]) for p in effect.parameters
     )

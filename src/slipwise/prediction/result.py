@@ -7,10 +7,12 @@ from typing import Any
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.display import Tabular
 from slipwise.noise.level import is_at_floor
-from slipwise.prediction.friction_families import FittedLaw
+from slipwise.prediction.friction_families import ReadLaw
 
 #: Number of the format of predicted.json.
 SCHEMA = 1
+#: Rungs of the errors: with the numbers of the program, with fitted ones, with what is missing.
+RUNGS = ("as it is", "its numbers corrected", "what it lacks added")
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,7 @@ class PredictionReport(Tabular):
         surplus: effects that it holds and the campaign does not show.
         numbers: of the model beside those of the campaign.
         runs: as predicted and as measured.
-        errors: rung -> relation -> error in floors: "as it is", "its numbers corrected", "what it lacks added".
+        errors: rung of `RUNGS` -> relation -> error in floors.
         beyond: what stays beyond its reach, a sentence each.
         notes: of the reading.
         read: the diagnosis of the prediction by itself.
@@ -80,7 +82,7 @@ class PredictionReport(Tabular):
     """
 
     campaign: str
-    law: FittedLaw
+    law: ReadLaw
     effects: tuple[str, ...]
     loads: str
     lacks: Mapping[str, str]
@@ -114,10 +116,11 @@ class PredictionReport(Tabular):
             parts.append(f"it lacks {' and '.join(self.lacks)}")
         if self.off:
             parts.append(f"{' and '.join(self.off)} {'is' if len(self.off) == 1 else 'are'} off")
-        worst = [f"{x:.2g}" for x in self.worst.values()]
         words = ", and ".join(parts)
-        fall = f"; its error falls from {' to '.join(worst)} times the noise floor" if len(worst) > 1 else ""
-        return f"{words[0].upper()}{words[1:]}{fall}."
+        before, numbers, completed = (f"{self.worst[rung]:.2g}" for rung in RUNGS)
+        fall = f"its error of {before} noise floors becomes {numbers} with the best numbers that it can have"
+        fall += f", and {completed} with what it lacks" if self.lacks else ""
+        return f"{words[0].upper()}{words[1:]}; {fall}."
 
     def as_json(self) -> dict[str, Any]:
         """Return what predicted.json holds."""
@@ -128,7 +131,9 @@ class PredictionReport(Tabular):
             "law": {
                 "family": self.law.family.name,
                 "words": self.law.family.words,
-                "numbers": {n: {"value": v, "unit": self.law.family.numbers[n][0]} for n, v in self.law.numbers.items()},
+                "numbers": {
+                    n: {"value": v, "unit": self.law.family.numbers[n][0]} for n, v in self.law.numbers.items()
+                },
                 "left": self.law.left,
             },
             "effects": list(self.effects),

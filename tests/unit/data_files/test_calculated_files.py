@@ -1,4 +1,4 @@
-"""What programs of structural analysis write as text is read as columns: recorders, tables, several files of one run."""
+"""What programs of structural analysis write as text is read as columns: recorders, tables, a run in several files."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,8 @@ TABLE:  "ELEMENT FORCES - LINKS"
    Link=1   LinkElem=1   Station=I-End   OutputCase=TH1   CaseType=NonDirHist   StepType=Time   StepNum=0.01   P=-24 _
         V2=1.3   V3=0
    Link=2   LinkElem=2   Station=I-End   OutputCase=TH1   CaseType=NonDirHist   StepType=Time   StepNum=0   P=-25   V2=0
-   Link=2   LinkElem=2   Station=I-End   OutputCase=TH1   CaseType=NonDirHist   StepType=Time   StepNum=0.01   P=-26   V2=1.5
+   Link=2   LinkElem=2   Station=I-End   OutputCase=TH1   CaseType=NonDirHist   StepType=Time   StepNum=0.01   P=-26 _
+        V2=1.5
 
 TABLE:  "JOINT DISPLACEMENTS"
    Joint=7   OutputCase=TH1   CaseType=NonDirHist   StepType=Time   StepNum=0   U1=0

@@ -67,7 +67,10 @@ def test_recorders_of_a_run_in_a_folder_are_mapped_by_a_campaign_file_of_their_o
     run.mkdir(parents=True)
     np.savetxt(run / "slip.out", np.stack([TIME, 0.012 * SHAPE], axis=1))
     np.savetxt(run / "pads.out", np.stack([TIME, *(1e3 * v for v in (*LOADS.values(), *FORCES.values()))], axis=1))
-    names = ['"slip: column 1" = { channel = "time", unit = "s" }', '"slip: column 2" = { channel = "slip_x", unit = "m" }']
+    names = [
+        '"slip: column 1" = { channel = "time", unit = "s" }',
+        '"slip: column 2" = { channel = "slip_x", unit = "m" }',
+    ]
     for k, channel in enumerate((*LOADS, *FORCES), 2):
         names.append(f'"pads: column {k}" = {{ channel = "{channel}", unit = "N" }}')
     lines = ['rig = "bridge1"', "[columns]", *names]

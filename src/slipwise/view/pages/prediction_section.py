@@ -1,12 +1,20 @@
 """The part of a diagnosis' page on another program's model: what it is, what it lacks, which numbers are off."""
 
 from slipwise.prediction.result import PredictionReport
-from slipwise.view.pages.html import Section, bullets, details, paragraph, table
+from slipwise.view.colours import Tone
+from slipwise.view.pages.html import Section, bullets, details, paragraph, table, verdict
 from slipwise.view.words.prediction_words import error_rows, number_rows, prediction_answers, run_rows
 
 
 def prediction_section(found: PredictionReport) -> Section:
-    """Make the section."""
+    """Make the section.
+
+    Args:
+        found: what a campaign shows of the model that predicted it.
+
+    Returns:
+        To be put before all others: who asks for it asks about that model.
+    """
     off = [place for place, one in enumerate(found.numbers) if one.off]
     numbers = [
         paragraph("The numbers of the model beside those of the campaign, with their 95 % intervals."),
@@ -17,7 +25,7 @@ def prediction_section(found: PredictionReport) -> Section:
     return Section(
         "The model that predicted these runs",
         [
-            paragraph(found.sentence),
+            verdict(*_headline(found), {rung: f"{error:.3g} floors" for rung, error in found.worst.items()}),
             *(paragraph(f"{question} {answer}") for question, answer in prediction_answers(found)),
             table(error_rows(found), "Error of every balance of the rig, on measured states, in noise floors"),
             *numbers,
@@ -25,3 +33,12 @@ def prediction_section(found: PredictionReport) -> Section:
             details("How the model was read back", [paragraph(read), *([bullets(found.notes)] if found.notes else [])]),
         ],
     )
+
+
+def _headline(found: PredictionReport) -> tuple[str, str, Tone]:
+    """Return what the model is in a few words, in a sentence, and its tone."""
+    if found.lacks:
+        return f"The model lacks {' and '.join(found.lacks)}", found.sentence, "bad"
+    if found.off:
+        return "A number of the model is off", found.sentence, "warn"
+    return "The model is right as far as this campaign goes", found.sentence, "good"

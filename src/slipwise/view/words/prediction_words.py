@@ -67,7 +67,8 @@ def error_rows(found: PredictionReport) -> list[dict[str, str]]:
     """Return the error of every balance at every rung as rows."""
     relations = dict.fromkeys(r for errors in found.errors.values() for r in errors)
     return [
-        {"balance": NAMES[r][0]} | {rung: floors(errors[r]) if r in errors else "" for rung, errors in found.errors.items()}
+        {"balance": NAMES[r][0]}
+        | {rung: floors(errors[r]) if r in errors else "" for rung, errors in found.errors.items()}
         for r in relations
     ]
 
