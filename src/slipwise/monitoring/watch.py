@@ -241,6 +241,6 @@ def _with_next_motion(work: _Work, step: Step, found: Diagnosis) -> Step:
         return replace(step, next_words=f"No motion is ranked: {' '.join(str(error).split())}", finished=True)
     best = next((one for one in ranked.proposals if not one.refused and not one.failed), None)
     words = ranked.words if best is None else f"Next: {best.motion}. {ranked.words}".strip()
-    rows = tuple(ranked.as_json()["motions"][:_LISTED])
+    rows = tuple(row for row in ranked.as_json()["motions"] if row["table"] == "can make it" and not row["failed"])
     took = {**step.seconds, "next": work.since()}
-    return replace(step, motions=rows, next_words=words, seconds=took, finished=True)
+    return replace(step, motions=rows[:_LISTED], next_words=words, seconds=took, finished=True)

@@ -48,6 +48,7 @@ def judge_prediction(
     *,
     own: Iterable[Effect] = (),
     system: bool = False,
+    found: Diagnosis | None = None,
     progress: Callable[[str, float], None] | None = None,
 ) -> PredictionReport:
     """Say what a campaign shows of the model by which another program predicted it.
@@ -61,6 +62,7 @@ def judge_prediction(
         model: where the diagnosis of the measured campaign starts, see `diagnose`.
         own: effects beside those of the catalogue, for that diagnosis.
         system: replay, in that diagnosis.
+        found: that diagnosis, where it was made already: a campaign says the same of all who predicted it.
         progress: called with what is being done and the share done.
 
     Raises:
@@ -85,7 +87,7 @@ def judge_prediction(
     )
     prepared = prepare(measured)
     start = None if model is None else as_model(model)
-    found = diagnose(
+    found = found or diagnose(
         prepared, start, own=own, system=system,
         progress=lambda words, share: tell(f"the campaign: {words}", 0.45 + 0.45 * share),
     )  # fmt: skip

@@ -13,6 +13,14 @@ from slipwise.prediction.friction_families import ReadLaw
 SCHEMA = 1
 #: Rungs of the errors: with the numbers of the program, with fitted ones, with what is missing.
 RUNGS = ("as it is", "its numbers corrected", "what it lacks added")
+#: How people call the numbers of a rig.
+_CALLED = {
+    "rig.mass": "mass of the girder",
+    "rig.centre_height": "height of the centre of gravity",
+    "rig.buffer_stiffness": "stiffness of all buffers",
+    "rig.pitch_frequency": "pitch frequency on the pads",
+    "friction": "mean coefficient of friction",
+}
 
 
 @dataclass(frozen=True)
@@ -38,6 +46,12 @@ class ComparedNumber:
     unit: str
     costs: float
     off: bool
+
+    @property
+    def name(self) -> str:
+        """How people call it: "mass of the girder", "clearance of key_clearance"."""
+        effect, _, parameter = self.key.partition(".")
+        return _CALLED.get(self.key, f"{parameter} of {effect}" if parameter else self.key)
 
 
 @dataclass(frozen=True)
@@ -115,7 +129,8 @@ class PredictionReport(Tabular):
         if self.lacks:
             parts.append(f"it lacks {' and '.join(self.lacks)}")
         if self.off:
-            parts.append(f"{' and '.join(self.off)} {'is' if len(self.off) == 1 else 'are'} off")
+            called = [f"the {n.name}" for n in self.numbers if n.off]
+            parts.append(f"{' and '.join(called)} {'is' if len(called) == 1 else 'are'} off")
         words = ", and ".join(parts)
         before, numbers, completed = (f"{self.worst[rung]:.2g}" for rung in RUNGS)
         fall = f"its error of {before} noise floors becomes {numbers} with the best numbers that it can have"

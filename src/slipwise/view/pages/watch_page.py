@@ -8,6 +8,7 @@ from slipwise.view.pages.html import Html, Piece, Section, bullets, callout, esc
 from slipwise.view.words.watch_words import (
     change_words,
     gauge_words,
+    motion_rows,
     runs_words,
     step_rows,
     tone,
@@ -85,7 +86,7 @@ def _section(steps: Sequence[Step], place: int) -> Section:
     if step.next_words:
         pieces.append(paragraph(step.next_words))
     if step.motions:
-        pieces.append(table(step.motions, "Motions, the one that would tell most first"))
+        pieces.append(table(motion_rows(step), "Motions, the one that would tell most first"))
     if step.report:
         link = f"{quote(step.report)}/report.html"
         pieces.append(Html(f'<p><a href="{escape(link)}">The whole diagnosis of step {step.number}</a></p>'))

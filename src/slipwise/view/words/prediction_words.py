@@ -9,12 +9,6 @@ from slipwise.units import convert
 from slipwise.view.words.diagnosis_words import floors
 from slipwise.view.words.numbers import usual_unit
 
-_RIG = {
-    "rig.mass": "mass of the girder", "rig.centre_height": "height of the centre of gravity",
-    "rig.buffer_stiffness": "stiffness of all buffers", "rig.pitch_frequency": "pitch frequency on the pads",
-    "friction": "coefficient of friction, mean while sliding",
-}  # fmt: skip
-
 
 def prediction_answers(found: PredictionReport) -> list[tuple[str, str]]:
     """Return what an office asks of its model, with the answers in a sentence or two each."""
@@ -85,7 +79,7 @@ def _row(found: ComparedNumber) -> dict[str, str]:
     values = (found.theirs, found.measured, found.low, found.high)
     model, campaign, low, high = ("" if v is None else _figures(convert(v, found.unit, shown)) for v in values)
     return {
-        "number": _RIG.get(found.key, f"{name} of {effect}" if name else found.key),
+        "number": found.name,
         "model": model,
         "campaign": campaign,
         "from": low,

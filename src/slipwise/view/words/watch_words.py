@@ -1,6 +1,7 @@
 """What a watch tells of a step, in sentences: which gauge broke, what is missing, where it fails, which motion next."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from slipwise.monitoring.step import Step
 from slipwise.monitoring.watch import News
@@ -90,6 +91,19 @@ def step_rows(steps: Sequence[Step]) -> list[dict[str, str]]:
             "left out": "; ".join(words.partition(" is left out")[0] for words in step.refused),
         }
         for step in reversed(steps)
+    ]
+
+
+def motion_rows(step: Step) -> list[dict[str, Any]]:
+    """Return the next motions as rows of a table."""
+    return [
+        {
+            "motion": row["motion"],
+            "separation [noise variances]": row["separation"],
+            "in": row["in"],
+            "probability then": f"{100 * row['probability then']:.0f} %",
+        }
+        for row in step.motions
     ]
 
 
