@@ -70,7 +70,7 @@ ARROWS: dict[str, str] = {
         "campaign comparison data_files design diagnosis effects errors instruments model preparation record"
     ),
     "prediction": (
-        "arrays campaign data_files diagnosis display effects errors estimation evidence jobs model noise params"
+        "arrays campaign comparison data_files diagnosis display effects errors estimation evidence jobs model noise params"
         " preparation record rig signals"
     ),
     "session": (

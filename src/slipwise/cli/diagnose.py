@@ -130,7 +130,7 @@ def _tell_prediction(judged: "sw.PredictionReport") -> None:
     print_table("Error of every balance, in noise floors", error_rows(judged))
     print_table("Numbers of the model and of the campaign", number_rows(judged.numbers))
     print_table("Runs as measured and as predicted", run_rows(judged))
-    say(f"the campaign by itself: {judged.found.sentence}")
+    say(f"the campaign, begun from the paper's law or model.toml: {judged.found.sentence}")
     for words in judged.notes:
         say(f"note: {words}")
 

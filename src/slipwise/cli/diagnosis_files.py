@@ -29,13 +29,11 @@ def write_diagnosis(
     from slipwise.view.figures.figure_files import figures_into
     from slipwise.view.files import save_json, save_page
     from slipwise.view.pages.diagnosis_page import diagnosis_page
-    from slipwise.view.pages.prediction_section import prediction_section
 
     began = time.perf_counter()
     files = [save_json(found.as_json(), folder / "diagnosis.json")]
     with figures_into(folder / "figures" if figures else None) as drawn:
-        first = [] if prediction is None else [prediction_section(prediction)]
-        files.append(save_page(diagnosis_page(found, found.ladder(), first), folder / "report.html"))
+        files.append(save_page(diagnosis_page(found, found.ladder(), prediction), folder / "report.html"))
     if prediction is not None:
         files.append(save_json(prediction.as_json(), folder / "predicted.json"))
     drawn_at = time.perf_counter()

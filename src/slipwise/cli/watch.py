@@ -46,15 +46,15 @@ def watch(
     folder, name = out_folder(out), campaign.resolve().name
     page = folder / "watch.html"
     last: sw.News | None = None
-    say(f"open {page.resolve().as_uri()}; Ctrl-C ends the watch")
     try:
-        save_page(watch_page(name, (), ()), page)
         with steps() as tell:
             day = sw.watch(
                 campaign, folder / "watch.json", model=model, trust=trust or effect or (), own=own, limits=limits,
                 progress=tell,
             )  # fmt: skip
             for news in day:
+                if last is None:
+                    say(f"open {page.resolve().as_uri()}; Ctrl-C ends the watch")
                 for words in news_words(news, last):
                     say(words)
                 save_page(watch_page(name, news.steps, news.waiting), page)

@@ -89,11 +89,12 @@ def watch(
     observer, reader = Observer(folder, {name for step in steps for name in step.files}), RunReader(folder)
     observer.look()  # a folder that is none, or without a campaign.toml, is told at once
     told: tuple[str, ...] = ()
+    begun = False
     judged: object = None
     while True:
         seen, measured, refused, notices = _looked(observer, reader, judged)
-        if notices != told:
-            told = notices
+        if notices != told or not begun:  # even nothing is told once: whoever listens knows that it has begun
+            told, begun = notices, True
             yield News("waiting", steps, told)
         if seen is None:
             time.sleep(_EVERY)

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from slipwise.campaign import Campaign, as_campaign
+from slipwise.comparison.component_level import NAMES
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.effects import Effect, base_effects
@@ -211,7 +212,7 @@ def _loads(law: ReadLaw, runs: tuple[ComparedRun, ...]) -> str:
         return "The prediction has no loads of pads."
     measured, predicted = (max(pair[k] for pair in changes) for k in (0, 1))
     follows = "friction follows the load" if law.family.follows_load else "friction sees a constant load"
-    return f"Its loads change by {predicted:.1%} of themselves (rms), in the test by {measured:.1%}; {follows}."
+    return f"Its loads change by {100 * predicted:.3g} % (rms), those of the test by {100 * measured:.3g} %; {follows}."
 
 
 def _numbers(
@@ -259,10 +260,14 @@ def _beyond(base: BaseFit, law: ReadLaw, lacks: Mapping[str, str], found: Diagno
     out = []
     left = {r: e for r, e in _levels(base.objective, base.solution.values).items() if not is_at_floor(e)}
     if left and lacks:
-        worst = ", ".join(f"{name} {error:.2g}" for name, error in sorted(left.items(), key=lambda pair: -pair[1]))
+        worst = ", ".join(
+            f"{NAMES[name][0]} {error:.2g}" for name, error in sorted(left.items(), key=lambda pair: -pair[1])
+        )
         out.append(f"With the best numbers that it can have, it still errs, in noise floors, by: {worst}.")
     if law.is_foreign:
-        out.append(f"Its law of friction is none of those that are known here: the nearest leaves {law.left:.0%}.")
+        out.append(
+            f"Its law of friction is none of those that are known here: the nearest leaves {100 * law.left:.0f} %."
+        )
     if found.verdict.kind == "unknown" or found.verdict.leftover == "unknown":
         out.append(f"What the catalogue does not explain either: {found.left_over}.")
     return tuple(out)

@@ -2,7 +2,7 @@
 
 from slipwise.prediction.result import PredictionReport
 from slipwise.view.colours import Tone
-from slipwise.view.pages.html import Section, bullets, details, paragraph, table, verdict
+from slipwise.view.pages.html import Html, Section, bullets, details, paragraph, table, verdict
 from slipwise.view.words.prediction_words import error_rows, number_rows, prediction_answers, run_rows
 
 
@@ -11,9 +11,6 @@ def prediction_section(found: PredictionReport) -> Section:
 
     Args:
         found: what a campaign shows of the model that predicted it.
-
-    Returns:
-        To be put before all others: who asks for it asks about that model.
     """
     off = [place for place, one in enumerate(found.numbers) if one.off]
     numbers = [
@@ -23,9 +20,8 @@ def prediction_section(found: PredictionReport) -> Section:
     runs = "As predicted and as measured, with no fit at all; errors are rms, over the rms of the measurement."
     read = f"The prediction by itself, read as if this campaign's gauges had recorded it: {found.read.sentence}"
     return Section(
-        "The model that predicted these runs",
+        "What it is, and what it lacks",
         [
-            verdict(*_headline(found), {rung: f"{error:.3g} floors" for rung, error in found.worst.items()}),
             *(paragraph(f"{question} {answer}") for question, answer in prediction_answers(found)),
             table(error_rows(found), "Error of every balance of the rig, on measured states, in noise floors"),
             *numbers,
@@ -33,6 +29,12 @@ def prediction_section(found: PredictionReport) -> Section:
             details("How the model was read back", [paragraph(read), *([bullets(found.notes)] if found.notes else [])]),
         ],
     )
+
+
+def prediction_verdict(found: PredictionReport) -> Html:
+    """Make the box that says what is wrong with the model, and how its error falls."""
+    facts = {f"error {rung} [noise floors]": f"{error:.3g}" for rung, error in found.worst.items()}
+    return verdict(*_headline(found), facts)
 
 
 def _headline(found: PredictionReport) -> tuple[str, str, Tone]:

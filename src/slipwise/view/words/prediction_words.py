@@ -32,7 +32,7 @@ def prediction_answers(found: PredictionReport) -> list[tuple[str, str]]:
 def number_words(found: ComparedNumber) -> str:
     """Say what a number is in the model and in the campaign, with its unit."""
     row = _row(found)
-    interval = f" ({row['from']} to {row['to']})" if row["from"] else ""
+    interval = f" ({row['95 %']})" if row["95 %"] else ""
     unit = f" {row['unit']}" if row["unit"] else ""
     words = f"{row['number']}: {row['model']}{unit} in the model, {row['campaign']}{interval}{unit} in the campaign"
     return f"{words[0].upper()}{words[1:]}."
@@ -82,10 +82,9 @@ def _row(found: ComparedNumber) -> dict[str, str]:
         "number": found.name,
         "model": model,
         "campaign": campaign,
-        "from": low,
-        "to": high,
+        "95 %": f"{low} to {high}" if low else "",
         "unit": "" if shown == "1" else shown,
-        "off": "off" if found.off else "",
+        "off": "yes" if found.off else "",
     }
 
 
