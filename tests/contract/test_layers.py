@@ -70,8 +70,8 @@ ARROWS: dict[str, str] = {
         "campaign comparison data_files design diagnosis effects errors instruments model preparation record"
     ),
     "prediction": (
-        "arrays campaign comparison data_files diagnosis display effects errors estimation evidence jobs model noise params"
-        " preparation record rig signals"
+        "arrays campaign comparison data_files diagnosis display effects errors estimation evidence jobs model noise"
+        " params preparation record rig signals"
     ),
     "session": (
         "arrays campaign comparison diagnosis discovery display effects errors estimation jobs model preparation record"
