@@ -47,10 +47,13 @@ if TYPE_CHECKING:
     from slipwise.jobs import executors
     from slipwise.model import Model, base_model, use
     from slipwise.model.file import load_model, save_model
+    from slipwise.monitoring.watch import News, watch
     from slipwise.motion import TableMotion, load_motion
     from slipwise.params import Parameter
     from slipwise.planning.plan import plan
     from slipwise.planning.result import PlannedTest
+    from slipwise.prediction.judge import judge_prediction
+    from slipwise.prediction.result import PredictionReport
     from slipwise.record import Record, read_record, write_record
     from slipwise.session.model_change import ModelChange, add, remove
     from slipwise.session.session import Session
@@ -91,6 +94,8 @@ _PLACES: dict[str, tuple[str, str]] = {
     "remove": ("session.model_change", "remove"),
     "next_test": ("design.next_test", "next_test"),
     "plan": ("planning.plan", "plan"),
+    "watch": ("monitoring.watch", "watch"),
+    "judge_prediction": ("prediction.judge", "judge_prediction"),
     "read_record": ("record", "read_record"),
     "write_record": ("record", "write_record"),
     "quantity": ("units", "quantity"),
@@ -107,10 +112,12 @@ _PLACES: dict[str, tuple[str, str]] = {
     "Limits": ("design.motions", "Limits"),
     "LinkProperties": ("export.sap2000", "LinkProperties"),
     "ModelChange": ("session.model_change", "ModelChange"),
+    "News": ("monitoring.watch", "News"),
     "NextTest": ("design.next_test", "NextTest"),
     "OpenSeesExport": ("export.opensees", "OpenSeesExport"),
     "Parameter": ("params", "Parameter"),
     "PlannedTest": ("planning.result", "PlannedTest"),
+    "PredictionReport": ("prediction.result", "PredictionReport"),
     "Record": ("record", "Record"),
     "Replay": ("simulation.simulator", "Replay"),
     "Session": ("session.session", "Session"),
@@ -143,10 +150,12 @@ __all__ = [
     "LinkProperties",
     "Model",
     "ModelChange",
+    "News",
     "NextTest",
     "OpenSeesExport",
     "Parameter",
     "PlannedTest",
+    "PredictionReport",
     "Record",
     "Replay",
     "Session",
@@ -172,6 +181,7 @@ __all__ = [
     "export_opensees",
     "export_sap2000",
     "init_campaign",
+    "judge_prediction",
     "ladder",
     "load_campaign",
     "load_model",
@@ -188,6 +198,7 @@ __all__ = [
     "rig",
     "save_model",
     "use",
+    "watch",
     "workbench",
     "write_record",
 ]

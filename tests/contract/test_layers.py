@@ -71,13 +71,20 @@ ARROWS: dict[str, str] = {
         "arrays campaign channels comparison display effects errors estimation evidence jobs model motion preparation"
         " record relations rig selection signals simulation"
     ),
+    "monitoring": (
+        "campaign comparison data_files design diagnosis effects errors instruments model preparation record"
+    ),
+    "prediction": (
+        "arrays campaign comparison data_files diagnosis display effects errors estimation evidence jobs model noise"
+        " params preparation record rig signals"
+    ),
     "session": (
         "arrays campaign comparison diagnosis discovery display effects errors estimation jobs model preparation record"
         " relations rig selection simulation units"
     ),
     "view": (
-        "arrays bearings channels comparison diagnosis discovery effects errors estimation export jobs noise params planning"
-        " record relations residual_map rig selection signals studies units"
+        "arrays bearings channels comparison diagnosis discovery effects errors estimation export jobs monitoring noise"
+        " params planning prediction record relations residual_map rig selection signals studies units"
     ),
     "cli": "errors jobs view",
     "workbench": (

@@ -16,7 +16,7 @@ from slipwise.campaign.derived_kinematics import completed
 from slipwise.campaign.friction_coefficient import forces_of, is_coefficient
 from slipwise.campaign.held_out_check import check_untouched
 from slipwise.campaign.same_specimen import check_same_specimen
-from slipwise.campaign.settings import ColumnMap, RunSettings, Settings, read_settings
+from slipwise.campaign.settings import ColumnMap, RunSettings, Settings, Source, read_settings
 from slipwise.campaign.time_axis import check_time, time_of_file
 from slipwise.campaign.wild_samples import WildSamples, inherited, without_wild_samples
 from slipwise.campaign.wild_samples_of_runs import marked, warned
@@ -37,7 +37,7 @@ _TEMPERATURES = (70.0, 2000.0)
 
 
 @dataclass(frozen=True)
-class _File:
+class MeasuredFile:
     """A data file as channels in SI, before any window."""
 
     time: Array
@@ -64,16 +64,35 @@ def load_campaign(folder: Path | str) -> Campaign:
     if not folder.is_dir():
         raise InputError(f"{folder}: no such folder; a campaign is a folder with campaign.toml and data files")
     settings = read_settings(folder / "campaign.toml")
-    specimen = better_known(load_specimen(settings.rig, folder), settings.specimen, "campaign.toml")
-    files: dict[tuple[str, tuple[ColumnMap, ...]], _File] = {}
-    runs: list[Run] = []
+    specimen = specimen_of(folder, settings)
+    files: dict[Source, MeasuredFile] = {}
     for run in settings.runs:
-        key = run.file, run.columns
-        if key not in files:
-            files[key] = _read_file(folder / run.file, settings, settings.columns_of(run), specimen)
-        runs.append(_run(run, files[key], settings))
+        if run.source not in files:
+            files[run.source] = read_file(folder / run.file, settings, specimen, settings.columns_of(run))
+    return assemble(folder, settings, specimen, files)
+
+
+def specimen_of(folder: Path, settings: Settings) -> Specimen:
+    """Return the rig of a campaign, with what its [specimen] knows better."""
+    return better_known(load_specimen(settings.rig, folder), settings.specimen, "campaign.toml")
+
+
+def assemble(folder: Path, settings: Settings, specimen: Specimen, files: Mapping[Source, MeasuredFile]) -> Campaign:
+    """Make a campaign of files that were read.
+
+    Args:
+        folder: with campaign.toml.
+        settings: what that says; of the runs those that are wanted.
+        specimen: as `specimen_of` gives it.
+        files: `source` of every run -> its file.
+
+    Raises:
+        InputError: a window that is missing, runs of one name or of two rigs, or a run that is held out and fitted.
+    """
+    runs = [_run(run, files[run.source], settings) for run in settings.runs]
     _check_names(runs)
-    notes = [*dict.fromkeys(note for file in files.values() for note in file.notes), *check_untouched(runs)]
+    used = [files[source] for source in dict.fromkeys(run.source for run in settings.runs)]
+    notes = [*dict.fromkeys(note for file in used for note in file.notes), *check_untouched(runs)]
     notes += _outside(folder, settings)
     campaign = Campaign(
         name=settings.name,
@@ -112,7 +131,19 @@ def as_campaign(given: Campaign | Path | str) -> Campaign:
     return load_campaign(given)
 
 
-def _read_file(path: Path, settings: Settings, columns: Sequence[ColumnMap], specimen: Specimen) -> _File:
+def read_file(path: Path, settings: Settings, specimen: Specimen, columns: Sequence[ColumnMap]) -> MeasuredFile:
+    """Read a data file as channels in SI.
+
+    Args:
+        path: of it.
+        settings: of its campaign: constants and derived channels.
+        specimen: whose pads and buffers the channels are of.
+        columns: what its columns are, as `Settings.columns_of` gives them.
+
+    Raises:
+        InputError: the file, a column or its times cannot be used.
+        UnitError: a unit that is missing, unknown or of the wrong dimension.
+    """
     table = open_table(path)
     chosen, notes = _choose(table, columns, specimen)
     read = table.columns([i for i, _ in chosen])
@@ -155,7 +186,9 @@ def _read_file(path: Path, settings: Settings, columns: Sequence[ColumnMap], spe
         for name, source in ((f"slip_{axis}", f"slip_v{axis}"), (f"table_a{axis}", f"table_d{axis}")):
             wild += inherited(wild, name, [source]) if any(word.startswith(f"{name} is") for word in added) else ()
     made = tuple(f"{path.name}: {word}" for word in added)
-    return _File(time, channels, _sha256(table.path), (*table.notes, *words, *made, *notes), wild, made, computed)
+    return MeasuredFile(
+        time, channels, _sha256(table.path), (*table.notes, *words, *made, *notes), wild, made, computed
+    )
 
 
 def _check_temperatures(name: str, channels: Mapping[str, Array]) -> None:
@@ -254,7 +287,7 @@ def _check_names(runs: Sequence[Run]) -> None:
             raise InputError(f"campaign.toml lists the run {run.name!r} ({run.file}) twice; remove one of them")
 
 
-def _run(run: RunSettings, file: _File, settings: Settings) -> Run:
+def _run(run: RunSettings, file: MeasuredFile, settings: Settings) -> Run:
     files = {other.file for other in settings.runs}
     stem = Path(run.file).stem
     name = stem if sum(Path(f).stem == stem for f in files) == 1 else str(Path(run.file).with_suffix(""))
@@ -293,5 +326,8 @@ def _run(run: RunSettings, file: _File, settings: Settings) -> Run:
 
 
 def _sha256(path: Path) -> str:
+    if path.is_dir():  # of a run that lies in several files
+        every = "".join(_sha256(file) for file in sorted(path.iterdir()) if file.is_file())
+        return hashlib.sha256(every.encode()).hexdigest()
     with path.open("rb") as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest()

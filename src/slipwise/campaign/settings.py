@@ -41,6 +41,10 @@ class ColumnMap:
     sign: int
 
 
+#: A file, and what its columns are beside what [columns] says.
+Source = tuple[str, tuple[ColumnMap, ...]]
+
+
 @dataclass(frozen=True)
 class RunSettings:
     """One [[run]]; times in [s]; columns are those that mean something else in its file than [columns] says."""
@@ -50,6 +54,11 @@ class RunSettings:
     window: tuple[float, float] | None
     rest_before: float | None
     columns: tuple[ColumnMap, ...] = ()
+
+    @property
+    def source(self) -> Source:
+        """What a file that was read belongs to: two runs may be cut from one file."""
+        return self.file, self.columns
 
 
 @dataclass(frozen=True)
@@ -78,8 +87,12 @@ class Settings:
         return (*others, *run.columns)
 
 
-def read_settings(path: Path) -> Settings:
+def read_settings(path: Path, *, runs_needed: bool = True) -> Settings:
     """Read and check campaign.toml.
+
+    Args:
+        path: of it.
+        runs_needed: refuse one that names no run yet.
 
     Raises:
         InputError: no file, no TOML, or something that is needed is missing.
@@ -94,12 +107,12 @@ def read_settings(path: Path) -> Settings:
         raise InputError(f"{path}: not valid TOML: {error}") from None
     _keys(content, _TOP, f"{path.name}")
     for needed, example in (("rig", '"bridge1"'), ("run", '[[run]] with file = "..." and role = "fit"')):
-        if needed not in content:
+        if needed not in content and (needed != "run" or runs_needed):
             raise InputError(f"{path}: {needed!r} is missing; write for example {example}")
     tables = ("specimen", "columns", "constants", "derived", "logger", "materiality")
     part = {key: _table(content.get(key, {}), f"[{key}] of {path.name}") for key in tables}
-    runs = content["run"]
-    if not isinstance(runs, list) or not runs:
+    runs = content.get("run", [])
+    if not isinstance(runs, list) or (not runs and "run" in content):
         raise InputError(f"{path}: runs are written as [[run]] with double brackets, one for each run")
     return Settings(
         name=_text(content.get("name", path.resolve().parent.name), "name", path.name),

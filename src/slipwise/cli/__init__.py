@@ -24,6 +24,7 @@ from slipwise.cli import (
     plan,
     replay,
     view,
+    watch,
     workbench,
 )
 from slipwise.cli.exit_codes import run_to_its_end
@@ -47,6 +48,7 @@ app.command()(plan.plan)
 app.command()(bearing.bearing)
 app.command()(consequence.consequence)
 app.add_typer(export.app, name="export")
+app.command()(watch.watch)
 for command in (
     ensemble.ensemble, bench.bench, paper.paper, view.view, catalogue.rigs, catalogue.channels, catalogue.motions,
     effects.effects,

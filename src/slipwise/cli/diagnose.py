@@ -61,6 +61,13 @@ def diagnose(
         list[str] | None,
         typer.Option(help="Say why this effect was not named, and what contradicts it; may be given more than once."),
     ] = None,
+    predicted: Annotated[
+        Path | None,
+        typer.Option(
+            help="Folder with the same runs as another program predicted them: says what that program's model lacks, "
+            "which of its numbers are off, and how far its error would fall."
+        ),
+    ] = None,
     timings: Annotated[bool, typer.Option(help="Print how long each stage took.")] = False,
     json: Json = False,
 ) -> None:
@@ -78,13 +85,67 @@ def diagnose(
             raise InputError("--accept writes the model.toml of one campaign; give one")
         if power or why_not:
             raise InputError("--power and --why-not ask about one campaign; give one")
+        if predicted is not None:
+            raise InputError("--predicted is of the runs of one campaign; give one")
         own = tuple(str(Path(name).resolve()) if name.endswith(".py") else name for name in effect or [])
         wanted = Wanted(model.resolve() if model else None, own, trust, system, recording)
         diagnose_many(campaign, out, wanted, workers, cluster, json)
         return
+    if predicted is not None:
+        if accept:
+            raise InputError("--accept and --predicted are of two models; give one of them")
+        if power or why_not:
+            raise InputError("--power and --why-not ask about one model; leave out --predicted")
+        _diagnose_prediction(campaign[0], predicted, out, model, effect, trust, system, recording, figures, json)
+        return
     _diagnose_one(
         campaign[0], out, model, effect, trust, system, recording, figures, accept, power, why_not or [], json, timings
     )
+
+
+def _diagnose_prediction(
+    campaign: Path,
+    predicted: Path,
+    out: Path,
+    model: Path | None,
+    effect: list[str] | None,
+    trust: bool,
+    system: bool,
+    recording: bool,
+    figures: bool,
+    json: bool,
+) -> None:
+    """Diagnose a campaign, and say what it shows of the model that predicted it."""
+    measured = sw.load_campaign(campaign)
+    folder = out_folder(out)
+    start = start_model(campaign, model, trust, effect)
+    own = own_effects(effect, start)
+    with steps() as tell:
+        judged = sw.judge_prediction(measured, predicted, start, own=own, system=system, progress=tell)
+    if not json:
+        _tell_prediction(judged)
+    files = write_diagnosis(judged.found, folder, recording, figures, prediction=judged)
+    if json:
+        print_json(judged.as_json())
+    else:
+        _wrote(files)
+
+
+def _tell_prediction(judged: "sw.PredictionReport") -> None:
+    """Print what another program's model is, what it lacks and which of its numbers are off."""
+    from slipwise.view.words.prediction_words import error_rows, number_rows, prediction_answers, run_rows
+    from slipwise.view.words.terminal import print_table
+
+    say(judged.sentence)
+    for question, answer in prediction_answers(judged):
+        say(f"{question} {answer}")
+    say_corrections(judged.found.corrections)
+    print_table("Error of every balance, in noise floors", error_rows(judged))
+    print_table("Numbers of the model and of the campaign", number_rows(judged.numbers))
+    print_table("Runs as measured and as predicted", run_rows(judged))
+    say(f"the campaign, begun from the paper's law or model.toml: {judged.found.sentence}")
+    for words in judged.notes:
+        say(f"note: {words}")
 
 
 def _diagnose_one(

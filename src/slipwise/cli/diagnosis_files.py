@@ -14,6 +14,7 @@ def write_diagnosis(
     recording: bool,
     figures: bool = False,
     times: dict[str, float] | None = None,
+    prediction: "sw.PredictionReport | None" = None,
 ) -> list[Path]:
     """Write the diagnosis, its page and, if asked for, its recording and figures; gives the files.
 
@@ -23,6 +24,7 @@ def write_diagnosis(
         recording: replay one run and write it for the viewer.
         figures: write every figure of the page by itself too.
         times: gets what was done -> how long it took [s], if given.
+        prediction: what was found of a model that predicted the runs, if one did.
     """
     from slipwise.view.figures.figure_files import figures_into
     from slipwise.view.files import save_json, save_page
@@ -31,7 +33,9 @@ def write_diagnosis(
     began = time.perf_counter()
     files = [save_json(found.as_json(), folder / "diagnosis.json")]
     with figures_into(folder / "figures" if figures else None) as drawn:
-        files.append(save_page(diagnosis_page(found, found.ladder()), folder / "report.html"))
+        files.append(save_page(diagnosis_page(found, found.ladder(), prediction), folder / "report.html"))
+    if prediction is not None:
+        files.append(save_json(prediction.as_json(), folder / "predicted.json"))
     drawn_at = time.perf_counter()
     recorded = _record(found, folder) if recording else []
     if times is not None:

@@ -15,6 +15,8 @@ from slipwise.data_files.labview_file import read_tdms
 from slipwise.data_files.matlab_file import read_matlab
 from slipwise.data_files.mdf_file import read_mdf
 from slipwise.data_files.named_columns import NamedColumns, unreadable
+from slipwise.data_files.recorder_file import is_recorder, read_recorder
+from slipwise.data_files.sap2000_file import is_sap2000, read_sap2000
 from slipwise.data_files.spreadsheet import inspect_sheet, read_sheet
 from slipwise.data_files.statements import read_statements
 from slipwise.data_files.table_rows import RowBlock
@@ -25,7 +27,7 @@ from slipwise.input_file import check_input
 
 #: Columns that take more memory than this are no record of a rig [bytes].
 _LARGEST = 800_000_000
-TEXT_SUFFIXES: tuple[str, ...] = (".csv", ".tsv", ".txt", ".dat", ".asc", ".lvm")
+TEXT_SUFFIXES: tuple[str, ...] = (".csv", ".tsv", ".txt", ".dat", ".asc", ".lvm", ".out", ".s2k")
 #: Files that are read whole, channel by channel.
 _CHANNEL_FILES: dict[str, Callable[[Path], NamedColumns]] = {
     ".mat": read_matlab, ".tdms": read_tdms, ".mf4": read_mdf, ".mdf": read_mdf, ".uff": read_uff, ".unv": read_uff,
@@ -69,7 +71,8 @@ def open_table(path: Path) -> Table:
     """Look at a data file.
 
     Args:
-        path: the file; "run.dat#2" is the second table of run.dat, "run.xlsx#Sheet2" a sheet.
+        path: the file; "run.dat#2" is the second table of run.dat, "run.xlsx#Sheet2" a sheet; a folder is one table of
+            all data files in it, whose columns are named "FILE: HEADER".
 
     Raises:
         InputError: no such file, an unknown format, or a file that its format does not allow.
@@ -80,9 +83,15 @@ def open_table(path: Path) -> Table:
     if not path.exists():
         near = sorted(p.name for p in path.parent.glob("*") if p.suffix.lower() in SUFFIXES)
         raise InputError(f"{path}: no such file; data files in that folder: {', '.join(near) or 'none'}")
+    if path.is_dir():
+        return _of_folder(path)
     suffix = check_input(path).suffix.lower()
     if part is not None and (suffix not in (*TEXT_SUFFIXES, ".xlsx") or (suffix != ".xlsx" and not part.isdigit())):
         raise InputError(f"{path}#{part}: only text files (by number) and workbooks (by sheet) hold several tables")
+    if suffix == ".out" and is_recorder(path):
+        return _of_columns(path, read_recorder(path))
+    if suffix in TEXT_SUFFIXES and is_sap2000(path):
+        return _of_columns(path, read_sap2000(path))
     if suffix in TEXT_SUFFIXES:
         layout = inspect_text(path)
         table = None if part is None else int(part)
@@ -109,6 +118,31 @@ def open_table(path: Path) -> Table:
     if suffix == ".parquet":
         return _parquet(path)
     raise InputError(f"{path}: {suffix or 'no suffix'} is no format of a data file; possible: {', '.join(SUFFIXES)}")
+
+
+def _of_folder(path: Path) -> Table:
+    """Look at the files of one run: recorders of a calculation, or cards of a logger, that write a file each.
+
+    Raises:
+        InputError: no data file is in it.
+    """
+    files = sorted(p for p in path.iterdir() if p.is_file() and p.suffix.lower() in SUFFIXES)
+    if not files:
+        raise InputError(f"{path}: no data file is in this folder; possible: {', '.join(SUFFIXES)}")
+    parts = [open_table(file) for file in files]
+    places = [(part, i) for part in parts for i in range(len(part.headers))]
+    headers = tuple(f"{part.path.stem}: {part.headers[i]}" for part, i in places)
+
+    def columns(wanted: Sequence[int]) -> Columns:
+        values = [places[k][0].columns([places[k][1]]).values[0] for k in wanted]
+        lengths = {headers[k]: len(column) for k, column in zip(wanted, values, strict=True)}
+        if len(set(lengths.values())) > 1:
+            counted = ", ".join(f"{name} {count}" for name, count in lengths.items())
+            raise InputError(f"{path}: the files of one run must have the same steps; rows of the columns: {counted}")
+        return Columns(values)
+
+    step = next((part.step for part in parts if part.step is not None), None)
+    return Table(path, headers, columns, step, tuple(note for part in parts for note in part.notes))
 
 
 def _of_columns(path: Path, read: NamedColumns) -> Table:

@@ -53,7 +53,9 @@ def find_floors_of_gauges(effect: Effect, record: Record) -> dict[str, tuple[str
     floors = [n for n in record.channels if n.startswith("storey_") and n[-2] == "d"]
     both = [name for floor in floors for name in (floor, f"{floor[:-2]}a{floor[-1]}") if name in record]
     moved = moved_channels(effect, both)
-    return {name: (name,) for name in both if name in moved and _sits(effect, name, (name,)) and not effect.gauges.reads}
+    return {
+        name: (name,) for name in both if name in moved and _sits(effect, name, (name,)) and not effect.gauges.reads
+    }
 
 
 def _sits(effect: Effect, place: str, channels: tuple[str, ...]) -> bool:

@@ -5,8 +5,8 @@ import pytest
 
 from slipwise.evidence.calibration import load_calibration
 from slipwise.selection.columns import CandidateColumn
-from slipwise.selection.statistics import Statistics
 from slipwise.selection.planned_twins import TwinWeighing, decide_twins, draw_pulls, prepare_weighing, weigh
+from slipwise.selection.statistics import Statistics
 
 ROWS = 4000
 

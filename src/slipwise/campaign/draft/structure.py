@@ -42,7 +42,9 @@ def structure_draft(levels: LevelOrder) -> str:
         "these masses",
     ]
     for number, (x, y) in enumerate(_PLACES.values(), 1):
-        lines.append(f'{number} = {{ x = "{x:g} m", y = "{y:g} m", stiffness = "{stiffness / len(_PLACES) / 1e6:.4g} kN/mm" }}')
+        lines.append(
+            f'{number} = {{ x = "{x:g} m", y = "{y:g} m", stiffness = "{stiffness / len(_PLACES) / 1e6:.4g} kN/mm" }}'
+        )
     for number, storey in enumerate(storeys, 1):
         found = _stiffness(storey.stiffness, _SOME_STOREY, storey.above)
         damping = storey.damping * _SOME_MASS

@@ -7,6 +7,7 @@ from slipwise.diagnosis.indistinguishable import list_known_effects
 from slipwise.diagnosis.ladder import Ladder
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.effects import Effect
+from slipwise.prediction.result import PredictionReport
 from slipwise.rig import Specimen
 from slipwise.units import convert
 from slipwise.view.figures.diagnosis_figures import (
@@ -19,6 +20,7 @@ from slipwise.view.figures.diagnosis_figures import (
 from slipwise.view.figures.style import styled
 from slipwise.view.pages.diagnosis_effects import evidence_rows, importance_section, sizes_section
 from slipwise.view.pages.html import Section, bullets, callout, details, figure, page, paragraph, table, verdict
+from slipwise.view.pages.prediction_section import prediction_section, prediction_verdict
 from slipwise.view.pages.why_not_section import limits_section, why_not_pieces
 from slipwise.view.words.diagnosis_words import cannot_tell_words, confirmed_words, error_name, floors
 from slipwise.view.words.limit_words import missed_words
@@ -33,21 +35,22 @@ _HEADLINES = {
 }
 
 
-def diagnosis_page(found: Diagnosis, ladder: Ladder | None = None) -> str:
+def diagnosis_page(found: Diagnosis, ladder: Ladder | None = None, prediction: PredictionReport | None = None) -> str:
     """Make the page.
 
     Args:
         found: the diagnosis.
         ladder: the falling error, where it was climbed.
+        prediction: what was found of a model that predicted the runs, if one did; it stands first.
 
     Returns:
         The text of a self-contained HTML file.
     """
     with styled():
-        return _page(found, ladder)
+        return _page(found, ladder, prediction)
 
 
-def _page(found: Diagnosis, ladder: Ladder | None) -> str:
+def _page(found: Diagnosis, ladder: Ladder | None, prediction: PredictionReport | None) -> str:
     error = error_name(found)
     facts = {
         "probability": f"{100 * found.verdict.probability:.0f} %",
@@ -72,7 +75,12 @@ def _page(found: Diagnosis, ladder: Ladder | None) -> str:
         _limits(found),
     ]
     first = [callout("Before anything was fitted", f"{thing.words}.", "warn") for thing in found.corrections]
-    return page(f"Diagnosis of {found.campaign}", [part for part in sections if part is not None], [box, *first])
+    parts = [part for part in sections if part is not None]
+    if prediction is None:
+        return page(f"Diagnosis of {found.campaign}", parts, [box, *first])
+    words = "What the campaign shows beyond the model that this diagnosis begins with: the paper's law, or model.toml."
+    own = [prediction_section(prediction), Section("The campaign by itself", [paragraph(words), box, *first])]
+    return page(f"The model that predicted {found.campaign}", [*own, *parts], [prediction_verdict(prediction)])
 
 
 def _fall(found: Diagnosis, before: float, after: float) -> str:

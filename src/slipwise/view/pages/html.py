@@ -43,13 +43,14 @@ class Section:
     pieces: Sequence[Piece]
 
 
-def page(title: str, sections: Sequence[Section], summary: Sequence[Piece] = ()) -> str:
+def page(title: str, sections: Sequence[Section], summary: Sequence[Piece] = (), *, every: int = 0) -> str:
     """Make a whole page with a table of contents.
 
     Args:
         title: of the page.
         sections: in order; equal titles get anchors of their own.
         summary: pieces before the table of contents, e.g. the verdict.
+        every: time after which a browser reads the file again [s]; 0 for a page that is finished.
 
     Returns:
         The text of the file.
@@ -63,11 +64,12 @@ def page(title: str, sections: Sequence[Section], summary: Sequence[Piece] = ())
         f'<section id="{anchor}"><h2>{escape(section.title)}</h2>{_join(section.pieces)}</section>\n'
         for anchor, section in zip(anchors, sections, strict=True)
     )
+    again = f'<meta http-equiv="refresh" content="{every}">\n' if every else ""
     navigation = f'<nav aria-label="Contents"><ol>{contents}</ol></nav>' if len(sections) > 1 else ""
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f"<title>{escape(title)}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n"
+        f"{again}<title>{escape(title)}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n"
         f'<header><div><p class="brand">Slipwise</p><h1>{escape(title)}</h1></div></header>\n'
         f"<main>{_join(summary)}{navigation}\n{body}</main>\n</body>\n</html>\n"
     )
