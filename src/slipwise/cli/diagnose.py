@@ -271,7 +271,8 @@ def _tell(found: "sw.Diagnosis") -> None:
     if found.power:
         say(power_words(found))
         if rows := limit_rows(found, brief=True):
-            print_table("Not named, and possibly there at a size that matters: at most so large (95 %)", rows)
+            shown = [{key: row[key] for key in ("effect", "at most", "of what matters")} for row in rows]
+            print_table("Not named, and possibly there at a size that matters: at most so large (95 %)", shown)
         print_table("Each effect at the limit of what matters, in campaigns like this one", power_rows(found))
     for run in found.predicted_friction:
         say(run.words)

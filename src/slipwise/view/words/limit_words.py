@@ -51,8 +51,8 @@ def limit_rows(found: Diagnosis, *, brief: bool = False) -> list[dict[str, str]]
     return [
         {
             "effect": limit.label if limit.label != limit.effect and not limit.responses else limit.effect,
-            "at most": _own_unit(known.get(limit.effect), limit.parameter, limit.value),
-            "of what matters": f"{limit.size:.2g}" if limit.measured else "not told",
+            "at most": _own_unit(known.get(limit.effect), limit.parameter, limit.value) if limit.measured else _NONE,
+            "of what matters": _short(limit.size) if limit.measured else "not told",
             **{_RESPONSES[r][0]: _changed(limit, r) for r in asked},
         }
         for limit in shown
@@ -70,12 +70,12 @@ def limit_sentence(effect: Effect | None, limit: Mapping[str, Any]) -> str:
         return "This campaign says nothing of it."
     own = _own_unit(effect, limit["parameter"], limit["value"])
     moved = [
-        f"{factor * abs(limit[r]):.2g} {head.partition('[')[2].rstrip(']')} of {head.partition(' [')[0]}"
+        f"{_short(factor * abs(limit[r]))} {head.partition('[')[2].rstrip(']')} of {head.partition(' [')[0]}"
         for r, (head, factor) in _RESPONSES.items()
         if limit.get(r)
     ]
     rest = ", ".join([*([own] if own != _NONE else []), *moved])
-    return f"At most {limit['size']:.2g} times what matters (95 %)" + (f": {rest}." if rest else ".")
+    return f"At most {_short(limit['size'])} times what matters (95 %)" + (f": {rest}." if rest else ".")
 
 
 def _own_unit(effect: Effect | None, strength: str, size: float | None) -> str:
@@ -86,14 +86,19 @@ def _own_unit(effect: Effect | None, strength: str, size: float | None) -> str:
     shown = parameter.shown_in or parameter.unit
     zero = convert(0.0, parameter.unit, shown)  # a temperature's zero moves, a difference of temperatures does not
     value = convert(size, parameter.unit, shown) - zero
-    return f"{strength} {value:.2g}" + ("" if shown == "1" else f" {shown}")
+    return f"{strength} {_short(value)}" + ("" if shown == "1" else f" {shown}")
 
 
 def _changed(limit: UpperLimit, response: str) -> str:
     if response not in limit.responses or not limit.measured:
         return _NONE
     value = abs(_RESPONSES[response][1] * limit.responses[response])
-    return f"{value:.2g}" if value >= 1e-3 else "0"
+    return _short(value) if value >= 1e-3 else "0"
+
+
+def _short(value: float) -> str:
+    """Write a size in two figures."""
+    return f"{value:.2g}" if abs(value) < 99.5 else f"{value:.0f}"
 
 
 def power_rows(found: Diagnosis) -> list[dict[str, str]]:

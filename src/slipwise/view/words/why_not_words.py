@@ -21,8 +21,11 @@ def why_not_words(found: WhyNot) -> list[str]:
     out: list[str] = []
     worst = found.worst
     if found.replaced:
-        left = f"{floors(worst['instead'])} noise floors {error}, where {named} leaves {floors(worst['named'])}"
-        out.append(f"{name} in the place of {found.replaced} leaves {left} and the base model {floors(worst['base'])}.")
+        left = f"{floors(worst['instead'])} noise floors {error}"
+        out.append(
+            f"{name} in the place of {found.replaced} leaves {left}, where the model with {named} leaves "
+            f"{floors(worst['named'])} and the base model {floors(worst['base'])}."
+        )
         out.append(_behind_words(found))
         out += [f"What it leaves, {found.where}."] if found.where else []
         out += [instant_words(i, found) for i in found.instants]
@@ -62,6 +65,10 @@ def _gain_words(found: WhyNot) -> str:
 def instant_words(found: Instant, why: WhyNot) -> str:
     """Say where and when the measurement contradicts an effect."""
     where = NAMES[found.relation][0] + (f" of pad {found.pad}" if found.pad else "")
-    state = f"{found.state}, {100.0 * found.speed:.2g} cm/s, pads at {found.load / 1e3:.3g} kN"
+    state = f"{found.state}, {100.0 * found.speed:.2g} cm/s, pads at {_short(found.load / 1e3)} kN"
     errors = f"{floors(found.instead)} floors, with {why.replaced} {floors(found.named)}"
     return f"{found.run}, {found.start:.2f} to {found.end:.2f} s ({state}): {where} {errors}."
+
+
+def _short(value: float) -> str:
+    return f"{value:.3g}" if abs(value) < 1e3 else f"{value:.0f}"
