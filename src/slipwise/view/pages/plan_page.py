@@ -8,6 +8,7 @@ from slipwise.view.pages.html import Section, bullets, callout, details, figure,
 from slipwise.view.words.numbers import counted
 from slipwise.view.words.plan_tables import (
     list_advice,
+    list_classes,
     list_effect_rows,
     list_gauge_rows,
     list_kind_rows,
@@ -42,7 +43,7 @@ def plan_page(found: PlannedTest) -> str:
     sections = [
         Section("Gauges to add", _advice(found)),
         Section("Sets of gauges", _sets(found)),
-        *([Section("Effects by gauges", _effects(found))] if found.planned.chances else []),
+        *([Section("Effects by gauges", _effects(found))] if any(one.chances for one in found.sets) else []),
         *([Section("Motions", _motions(found))] if found.motions else []),
         Section("What the planned gauges tell apart", _kinds(found)),
         Section("How this was found", [bullets(_HOW), *_about(found)]),
@@ -91,6 +92,8 @@ def _effects(found: PlannedTest) -> list[Any]:
     pieces: list[Any] = [
         figure(chances_figure(found), caption, "Effects by sets of gauges", narrow=chances_figure(found, narrow=True))
     ]
+    if not found.planned.chances:
+        return pieces
     pieces.append(table(list_effect_rows(found.planned), caption="With the planned gauges"))
     pieces.append(details("Faults of the gauges", [table(list_gauge_rows(found.planned))]))
     small = [c.effect for c in found.planned.of_rig if not c.possible]
@@ -110,6 +113,8 @@ def _motions(found: PlannedTest) -> list[Any]:
 
 def _kinds(found: PlannedTest) -> list[Any]:
     pieces: list[Any] = [table(list_kind_rows(found.planned))]
+    if classes := list_classes(found.planned):
+        pieces += [paragraph("Effects that no gauge tells apart:"), bullets(classes)]
     if found.untestable:
         reasons = [f"{name}: {why}" for name, why in sorted(found.untestable.items())]
         pieces.append(details("Effects that this test cannot show", [bullets(reasons)]))

@@ -44,14 +44,21 @@ def list_effect_rows(one: GaugeSet, *, others: bool = True) -> list[dict[str, An
 
     Args:
         one: a set of gauges.
-        others: whether for what it is taken is a column.
+        others: whether for what it is taken is a column, where it is taken for anything.
     """
     rows = []
+    others = others and any(c.taken_for for c in one.of_rig)
     for c in (c for c in one.of_rig if c.possible):
         row = {"effect": c.effect, "at its limit": write_size(c), "seen [%]": percent(c.seen)}
         row |= {"named [%]": percent(c.named), "from [limits]": write_least(c)}
         rows.append(row | ({"taken for": _taken_for(c)} if others else {}))
     return rows
+
+
+def list_classes(one: GaugeSet) -> list[str]:
+    """Return the kinds that are several effects, each with its effects."""
+    faults = [f for f in one.structure.faults if not f.channels and len(f.effects) > 1]
+    return [f"{f.name}: {', '.join(f.effects)}" for f in faults]
 
 
 def _taken_for(chance: Chance) -> str:
@@ -132,8 +139,8 @@ def list_kind_rows(one: GaugeSet) -> list[dict[str, Any]]:
         fault = structure.faults[of[0]]
         partners = [b if a == kind else a for a, b in structure.confused if kind in (a, b)]
         more = f" and {len(partners) - _MOST} more" if len(partners) > _MOST else ""
-        effects = "any fault of this gauge" if fault.channels else ", ".join(fault.effects)
-        row = {"kind": kind, "effects": effects, "can be seen": kind not in structure.unseen}
+        what = "any fault of the gauge" if fault.channels else counted(len(fault.effects), "effect")
+        row = {"kind": kind, "what": what, "can be seen": kind not in structure.unseen}
         rows.append(row | {"confused with": ", ".join(partners[:_MOST]) + more})
     return rows
 
