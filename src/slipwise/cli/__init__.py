@@ -44,7 +44,7 @@ for command in (
 app.command("next")(next_test.next_motion)
 app.command()(bearing.bearing)
 app.command()(consequence.consequence)
-app.add_typer(export.app, name="export")
+app.command()(export.export)
 for command in (
     ensemble.ensemble, bench.bench, paper.paper, view.view, catalogue.rigs, catalogue.channels, catalogue.motions,
     effects.effects,
