@@ -55,6 +55,8 @@ WRITTEN_BY = {
         "view/words/ensemble_tables.py": ("ensemble_json", "exceedance_rows", "_row"),
         "studies/ensemble/member.py": ("_numbers",),
     },
+    "consequence.json": {"studies/consequence/result.py": ("as_json", "_response")},
+    "Export": {"export/opensees.py": ("as_json",), "export/sap2000.py": ("as_json",)},
     "paper.json": {"studies/paper/reenact.py": ("as_json", "assumptions")},
 }
 

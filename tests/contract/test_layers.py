@@ -60,8 +60,8 @@ ARROWS: dict[str, str] = {
         " residual_map selection signals"
     ),
     "studies": (
-        "arrays campaign channels diagnosis effects errors estimation jobs model motion record relations rig signals"
-        " simulation units"
+        "arrays campaign channels diagnosis display effects errors estimation input_file jobs model motion record"
+        " relations rig signals simulation units"
     ),
     "design": (
         "campaign comparison diagnosis discovery display effects errors estimation evidence jobs model motion"

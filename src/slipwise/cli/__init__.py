@@ -47,7 +47,7 @@ app.command("next")(next_test.next_motion)
 app.command()(plan.plan)
 app.command()(bearing.bearing)
 app.command()(consequence.consequence)
-app.add_typer(export.app, name="export")
+app.command()(export.export)
 app.command()(watch.watch)
 for command in (
     ensemble.ensemble, bench.bench, paper.paper, view.view, catalogue.rigs, catalogue.channels, catalogue.motions,

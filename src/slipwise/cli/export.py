@@ -8,41 +8,58 @@ import typer
 import slipwise as sw
 from slipwise.cli.console import print_json, say, steps
 from slipwise.cli.options import Allowed, Json, Trusted
-from slipwise.errors import SettingError
+from slipwise.errors import SettingError, unknown_name
 
-app = typer.Typer(no_args_is_help=True, rich_markup_mode="markdown", help="Write a fitted rig for another program.")
-
-ModelOrRig = Annotated[str, typer.Argument(help="A model.toml, or a name of `slipwise rigs` with --law.")]
-Law = Annotated[str, typer.Option(help="paper (eqs. 7 and 8) or coulomb: the law of a rig that is given by its name.")]
+PROGRAMS = {"opensees": Path("out/export/rig.py"), "sap2000": Path("out/export/links.csv")}
 
 
-@app.command()
-def opensees(
-    model: ModelOrRig,
-    motion: Annotated[list[str], typer.Option(help="Of the table: a file or a synthetic one; files may be repeated.")],
-    out: Annotated[Path, typer.Option(help="The script; motion and results are written beside it.")] = Path(
-        "out/export/rig.py"
-    ),
-    law: Law = "paper",
+def export(
+    program: Annotated[str, typer.Argument(help="opensees or sap2000.")],
+    model: Annotated[str, typer.Argument(help="A model.toml, or a name of `slipwise rigs` with --law.")],
+    motion: Annotated[
+        list[str] | None,
+        typer.Option(help="Of the table: a file or a synthetic one; files of one record are repeated."),
+    ] = None,
+    campaign: Annotated[
+        Path | None, typer.Option(help="sap2000: a campaign, over whose pressures and speeds links are fitted.")
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="The script rig.py, or the table links.csv; other files are written beside it.")
+    ] = None,
+    law: Annotated[str, typer.Option(help="paper (eqs. 7 and 8) or coulomb: of a rig given by its name.")] = "paper",
     effect: Allowed = None,
     trust: Trusted = False,
     run: Annotated[bool, typer.Option(help="Run the script too, where OpenSeesPy is installed.")] = True,
     json: Json = False,
 ) -> None:
-    """Write a rig as an OpenSeesPy script, say what that program cannot express, and what it costs.
+    """Write a rig for another program, and say what that cannot express and what it costs.
 
-    Sliders get the friction model that is nearest over the pressures and speeds of our replay. The script runs alone,
-    and ends with the line `peak slip x [mm]: VALUE`.
+    opensees: an OpenSeesPy script that runs alone and ends with the line `peak slip x [mm]: VALUE`. Its sliders have
+    the friction model that is nearest over the pressures and speeds of our replay; where OpenSeesPy is installed the
+    script is run, and its responses held against ours. sap2000: a table of link properties, friction slow and fast,
+    rate, stiffness and radius, fitted over the pressures and speeds of a campaign or of a motion.
 
     Example: `slipwise export opensees model.toml --motion quake:seed=1,peak=0.7g --out out/rig.py`
     """
+    if program not in PROGRAMS:
+        raise unknown_name("program", program, PROGRAMS)
+    wanted = _model(model, law, trust, effect)
+    shaking, path = (sw.load_motion(motion) if motion else None), out or PROGRAMS[program]
+    if program == "sap2000":
+        _links(wanted, campaign, shaking, path, json)
+        return
+    if shaking is None or campaign is not None:
+        raise SettingError("a script for OpenSees shakes the rig by one motion: give --motion, and no --campaign")
+    _script(wanted, shaking, path, run, json)
+
+
+def _script(model: "sw.Model", shaking: "sw.TableMotion", out: Path, run: bool, json: bool) -> None:
     from slipwise.view.files import save_json
     from slipwise.view.words.export_tables import effect_rows, friction_rows, response_rows
     from slipwise.view.words.terminal import print_table
 
-    wanted, shaking = _model(model, law, trust, effect), sw.load_motion(motion)
     with steps() as tell:
-        found = sw.export_opensees(wanted, shaking, out, run=run, progress=tell)
+        found = sw.export_opensees(model, shaking, out, run=run, progress=tell)
     content = found.as_json()
     file = save_json(content, out.with_suffix(".json"))
     if json:
@@ -59,36 +76,17 @@ def opensees(
         say(f"wrote {path}")
 
 
-@app.command()
-def sap2000(
-    model: ModelOrRig,
-    campaign: Annotated[
-        Path | None, typer.Option(help="Folder with campaign.toml, over whose pressures and speeds links are fitted.")
-    ] = None,
-    motion: Annotated[
-        list[str] | None, typer.Option(help="A table motion instead, over whose replay they are fitted.")
-    ] = None,
-    out: Annotated[Path, typer.Option(help="The table of link properties.")] = Path("out/export/links.csv"),
-    law: Law = "paper",
-    effect: Allowed = None,
-    trust: Trusted = False,
-    json: Json = False,
-) -> None:
-    """Write link properties for SAP2000: friction slow and fast, rate, stiffness, radius.
-
-    Example: `slipwise export sap2000 campaigns/march/model.toml --campaign campaigns/march --out out/links.csv`
-    """
+def _links(model: "sw.Model", campaign: Path | None, shaking: "sw.TableMotion | None", out: Path, json: bool) -> None:
     from slipwise.view.files import save_json, save_rows
     from slipwise.view.words.export_tables import link_rows, short_link_rows
     from slipwise.view.words.terminal import print_table
 
-    wanted = _model(model, law, trust, effect)
-    shaking = sw.load_motion(motion) if motion else None
     with steps() as tell:
-        found = sw.export_sap2000(wanted, campaign, shaking, progress=tell)
-    files = [save_rows(link_rows(found), out), save_json(found.as_json(), out.with_suffix(".json"))]
+        found = sw.export_sap2000(model, campaign, shaking, progress=tell)
+    content = found.as_json()
+    files = [save_rows(link_rows(found), out), save_json(content, out.with_suffix(".json"))]
     if json:
-        print_json(found.as_json())
+        print_json(content)
         return
     sliders, springs = short_link_rows(found)
     print_table(f"Friction isolators, fitted over {found.fitted_over}; kN, m, s", sliders)

@@ -4,6 +4,8 @@ import inspect
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from slipwise.effects import Effect
 from slipwise.model import EffectUse, Model
 
@@ -15,7 +17,7 @@ WRITTEN, AVERAGED, LOST, GAUGE = "written", "as its mean", "left out", "not of t
 
 
 @dataclass(frozen=True)
-class Part:
+class PartOfModel:
     """One effect of a model in another program.
 
     Attributes:
@@ -31,24 +33,18 @@ class Part:
     peak_slip: float | None = None
 
 
-def list_parts(model: Model, pitches: bool) -> list[Part]:
-    """Return what becomes of every effect of a model.
-
-    Args:
-        model: that is written.
-        pitches: whether the table turns in the motion.
-    """
-    return [Part(use.label, *_fate(use, pitches)) for use in model.uses]
+def list_parts(model: Model) -> list[PartOfModel]:
+    """Return what becomes of every effect of a model."""
+    return [PartOfModel(use.label, *_fate(use)) for use in model.uses]
 
 
-def _fate(use: EffectUse, pitches: bool) -> tuple[str, str]:
+def _fate(use: EffectUse) -> tuple[str, str]:
     hooks = use.effect.instant_hooks.keys()
     if "gauge" in use.effect.hooks and not hooks:
         return GAUGE, "a fault of a gauge: the laboratory's, not the bridge's"
     if "table" in use.effect.hooks:
-        # the one table motion holds what all effects make of it
-        words = "in the motion"
-        return (LOST, "the table's pitch: excitations are translations") if pitches and turns(use) else (WRITTEN, words)
+        turning = (LOST, "the table's pitch: excitations are translations")
+        return turning if _turns(use) else (WRITTEN, "in the motion")
     if hooks & {"stick", "stretch"}:
         return LOST, "how friction turns round: sliders of that program stick on a straight elastic line"
     if "lift" in hooks:
@@ -63,7 +59,7 @@ def _fate(use: EffectUse, pitches: bool) -> tuple[str, str]:
         return WRITTEN, "a dashpot at the centre of gravity, linear at the speeds of this motion"
     if not hooks:
         return WRITTEN, "values of the rig"
-    asked = states_asked(use.effect)
+    asked = _states_asked(use.effect)
     if "advance" in hooks or use.effect.memory or asked:
         beyond = "what a pad remembers" if use.effect.memory else ", ".join(sorted(asked)).replace("_", " ")
         return AVERAGED, f"friction models know speed and pressure, not {beyond}: its mean in this motion"
@@ -76,15 +72,13 @@ def _of_face(use: EffectUse) -> tuple[str, str]:
     return WRITTEN, "radius of the sliding face"
 
 
-def turns(use: EffectUse) -> bool:
+def _turns(use: EffectUse) -> bool:
     """Return whether an effect of the table turns it."""
-    import numpy as np
-
     pushed = use.effect.hooks["table"](np.eye(4, 4), 1e-3, np.ones(4), **use.values)
     return bool(np.any(pushed[:, 3] != np.eye(4)[:, 3]))
 
 
-def states_asked(effect: Effect) -> frozenset[str]:
+def _states_asked(effect: Effect) -> frozenset[str]:
     """Return the states of a pad, beyond speed and pressure, on which an effect's friction depends."""
     asked = {name for hook in effect.instant_hooks.values() for name in inspect.signature(hook).parameters}
     return frozenset(asked) - _STATES_OF_FRICTION - {p.name for p in effect.parameters} - {"memory"}

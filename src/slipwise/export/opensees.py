@@ -14,7 +14,7 @@ from slipwise.errors import SettingError, SimulationError
 from slipwise.export.buffer_links import link_buffers
 from slipwise.export.friction_fit import FrictionFit, fit_pads
 from slipwise.export.friction_states import states_of_replay
-from slipwise.export.left_out import AVERAGED, GAUGE, LOST, Part, face_curvature, list_parts
+from slipwise.export.left_out import AVERAGED, GAUGE, LOST, PartOfModel, face_curvature, list_parts
 from slipwise.export.opensees_run import is_installed, run_script
 from slipwise.export.opensees_script import ELASTIC_SLIP, OpenSeesModel, script_text
 from slipwise.model import Model
@@ -31,7 +31,7 @@ _EXACT = 1e-6
 
 
 @dataclass(frozen=True)
-class Response:
+class RunResponse:
     """One number of the run in both programs.
 
     Attributes:
@@ -75,10 +75,10 @@ class OpenSeesExport(Tabular):
     data: Path
     motion: str
     frictions: Mapping[str, FrictionFit]
-    parts: tuple[Part, ...]
+    parts: tuple[PartOfModel, ...]
     remarks: tuple[str, ...]
     peak_slip: float
-    responses: tuple[Response, ...]
+    responses: tuple[RunResponse, ...]
     difference: float
     not_run: str
 
@@ -158,12 +158,10 @@ def export_opensees(
     if path.suffix != ".py":
         raise SettingError(f"--out {str(out)!r}: the script is Python; give a name that ends in .py")
     _check(model)
-    parts = list_parts(model, pitches=True)
+    parts = list_parts(model)
     physics = model.without(*(p.effect for p in parts if p.state == GAUGE))
     tell("replaying the model", 0.05)
     answer = replay(physics, shaking, output_dt=DT)
-    pitches = "table_pitch" in answer.record
-    parts = list_parts(model, pitches)
     tell("fitting friction and buffers", 0.3)
     written, remarks = _translated(physics, answer, shaking.title, path, parts)
     tell("what is left out", 0.4)
@@ -208,7 +206,7 @@ def _check(model: Model) -> None:
 
 
 def _translated(
-    model: Model, answer: Replay, title: str, path: Path, parts: list[Part]
+    model: Model, answer: Replay, title: str, path: Path, parts: list[PartOfModel]
 ) -> tuple[OpenSeesModel, list[str]]:
     """Return all that the script says, and what it does not."""
     specimen = model.built_specimen()
@@ -287,7 +285,7 @@ def _drag(model: Model, answer: Replay) -> tuple[float, float]:
     return float(found[0]), float(found[1])
 
 
-def _with_cost(part: Part, model: Model, shaking: TableMotion) -> Part:
+def _with_cost(part: PartOfModel, model: Model, shaking: TableMotion) -> PartOfModel:
     """Return a part that is not wholly there with the peak slip of our replay without it."""
     if part.state not in (AVERAGED, LOST):
         return part
@@ -304,7 +302,7 @@ def _motion_text(table: Array, title: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _responses(answer: Replay, model: Model, history: Mapping[str, Array]) -> tuple[Response, ...]:
+def _responses(answer: Replay, model: Model, history: Mapping[str, Array]) -> tuple[RunResponse, ...]:
     """Return what both runs say, by our channels' names [SI]."""
     specimen, ours = model.specimen, {name: answer.record[name] for name in answer.record.channels}
 
@@ -329,7 +327,7 @@ def _responses(answer: Replay, model: Model, history: Mapping[str, Array]) -> tu
     for name, unit, names, what in asked:
         own = of(ours, names, what)
         scale = largest(ours["slip_x"]) if what is last else own
-        found.append(Response(name, unit, own, of(history, names, what), scale))
+        found.append(RunResponse(name, unit, own, of(history, names, what), scale))
     return tuple(found)
 
 

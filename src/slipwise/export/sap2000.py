@@ -14,7 +14,7 @@ from slipwise.errors import SettingError
 from slipwise.export.buffer_links import link_buffers
 from slipwise.export.friction_fit import FrictionFit, fit_rate, fit_rate_and_pressure
 from slipwise.export.friction_states import FrictionStates, states_of_campaign, states_of_replay
-from slipwise.export.left_out import AVERAGED, GAUGE, LOST, Part, face_curvature, list_parts
+from slipwise.export.left_out import AVERAGED, GAUGE, LOST, PartOfModel, face_curvature, list_parts
 from slipwise.model import Model
 from slipwise.model.file import as_model
 from slipwise.motion import TableMotion
@@ -101,7 +101,7 @@ class LinkProperties(Tabular):
     fitted_over: str
     sliders: tuple[SliderLink, ...]
     springs: tuple[SpringLink, ...]
-    parts: tuple[Part, ...]
+    parts: tuple[PartOfModel, ...]
 
     @property
     def left_out(self) -> tuple[str, ...]:
@@ -166,7 +166,7 @@ def export_sap2000(
         )
     tell = progress or (lambda words, done: None)
     model = as_model(model)
-    parts = list_parts(model, pitches=False)
+    parts = list_parts(model)
     physics = model.without(*(p.effect for p in parts if p.state == GAUGE))
     specimen = physics.built_specimen()
     if campaign is not None:

@@ -46,7 +46,7 @@ def test_a_buffer_with_play_has_no_force_within_it():
 
 def test_what_a_program_cannot_say_is_named_and_gauges_are_no_part_of_the_rig():
     effects = (sw.use("heating"), sw.use("presliding"), sw.use("key_friction"), sw.use("channel_gain", "pad_A_N"))
-    states = {p.effect: p.state for p in list_parts(sw.base_model("bridge1").adding(*effects), pitches=False)}
+    states = {p.effect: p.state for p in list_parts(sw.base_model("bridge1").adding(*effects))}
     assert states["contact_area"] == states["shear_rate"] == "written"
     assert states["heating"] == "as its mean"
     assert states["presliding"] == states["key_friction"] == "left out"

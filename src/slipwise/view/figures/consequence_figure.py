@@ -44,8 +44,8 @@ def consequence_figure(found: Consequence, *, narrow: bool = False) -> Figure:
         for (value, colour), side in zip(ordered, ("right", "left"), strict=True):
             axes.plot([value, value], [0.0, level], color=colour, linewidth=0.8)
             axes.annotate(
-                f"{value:.3g}", (value, level), xytext=(-4, 4) if side == "right" else (4, -12), textcoords="offset points",
-                ha=side, color=INK, fontsize=9.0,
+                f"{value:.3g}", (value, level), ha=side, color=INK, fontsize=9.0, textcoords="offset points",
+                xytext=(-4, 4) if side == "right" else (4, -12),
             )  # fmt: skip
         axes.set(ylim=(0.0, 102.0), ylabel="earthquakes below [%]", xlabel=f"peak slip of {found.what} [{unit}]")
         axes.set_xlim(left=0.0)
