@@ -4,8 +4,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from slipwise.errors import SettingError, UnitError
+from slipwise.short_repr import short_repr
 
 
+@short_repr
 @dataclass(frozen=True)
 class Parameter:
     """One number of a law or of the rig.

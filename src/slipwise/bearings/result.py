@@ -14,6 +14,7 @@ from slipwise.bearings.quantities import QUANTITIES
 from slipwise.bearings.requirements import NotHeld
 from slipwise.display import Drawn, Tabular
 from slipwise.preparation.data_corrections import DataCorrection
+from slipwise.short_repr import short_repr
 
 #: What a row of the result is about.
 RUN, CYCLE, MEAN = "run", "cycle", "mean of cycles"
@@ -36,6 +37,7 @@ class QuantityValue:
     high: float = float("nan")
 
 
+@short_repr
 @dataclass(frozen=True)
 class BearingRow:
     """All quantities of one bearing over one cycle, over the closed cycles of a run, or over a run.

@@ -17,11 +17,13 @@ from slipwise.errors import SettingError
 from slipwise.noise.gauges import Gauge, measure_gauge_noise
 from slipwise.record import Record
 from slipwise.rig import Specimen
+from slipwise.short_repr import short_repr
 from slipwise.signals.filters import LowPass
 
 ROLES: tuple[str, ...] = ("fit", "repeat", "holdout")
 
 
+@short_repr
 @dataclass(frozen=True)
 class Thinning:
     """Samples of which only some were kept.
@@ -35,6 +37,7 @@ class Thinning:
     step: float
 
 
+@short_repr
 @dataclass(frozen=True)
 class Logger:
     """What the logger did to the channels before it stored them.
@@ -73,6 +76,7 @@ class Logger:
         return self.every
 
 
+@short_repr
 @dataclass(frozen=True)
 class Run:
     """One run of a campaign.

@@ -21,7 +21,7 @@ from slipwise.noise.gauges import Gauge
 from slipwise.preparation.data_corrections import DataCorrection
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ComparisonData:
     """A model held against a campaign.
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, repr=False)
-class Comparison(ComparisonData, Drawn):
+class Comparison(Drawn, ComparisonData):
     """A model held against a campaign; attributes as `ComparisonData`."""
 
     def rows(self, table: str = "components") -> list[dict[str, Any]]:

@@ -23,11 +23,13 @@ from slipwise.record import Record
 from slipwise.selection.explained_alone import ExplainedAlone
 from slipwise.selection.importance import Importance
 from slipwise.selection.search_state import Search
+from slipwise.short_repr import short_repr
 
 #: Number of the format of diagnosis.json.
 SCHEMA = 2
 
 
+@short_repr
 @dataclass(frozen=True)
 class Candidate:
     """A hypothesis that was refitted.

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 
 from slipwise.channels import channel
+from slipwise.short_repr import short_repr
 
 #: Faults that the samples show by themselves.
 SAMPLE_FAULTS: tuple[str, ...] = (
@@ -22,6 +23,7 @@ SAMPLE_FAULTS: tuple[str, ...] = (
 )
 
 
+@short_repr
 @dataclass(frozen=True)
 class GaugeFault:
     """What an audit needs to know of a gauge's fault; its size is the first parameter of the effect.

@@ -19,6 +19,7 @@ from slipwise.effects._written_hook import HOMES, WrittenHook, function_text, na
 from slipwise.errors import SettingError, unknown_name
 from slipwise.params import Parameter
 from slipwise.record import write_text
+from slipwise.short_repr import short_repr
 
 _FILE = '''"""{title}
 
@@ -46,6 +47,7 @@ _ALWAYS: dict[str, str] = {
 }  # fmt: skip
 
 
+@short_repr
 @dataclass(frozen=True)
 class WrittenEffect:
     """An effect to be written; what is not said here is as in `Effect`.

@@ -15,6 +15,7 @@ from slipwise.errors import InputError
 from slipwise.jobs.machine_code import kept
 from slipwise.record import Record
 from slipwise.relations.sample_masks import mask_judged_and_ringing, without_estimated_loads
+from slipwise.short_repr import short_repr
 from slipwise.signals.ends import in_frequency
 from slipwise.signals.filters import LowPass, lowpass
 from slipwise.signals.shift import shift
@@ -28,6 +29,7 @@ FAST = 0.01
 FINE, FINER = 2, 4
 
 
+@short_repr
 @dataclass(frozen=True)
 class FitRun:
     """One run, ready for the relations of a fit.

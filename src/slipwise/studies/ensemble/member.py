@@ -13,6 +13,7 @@ from slipwise.errors import SettingError
 from slipwise.model import Model, base_model, use
 from slipwise.motion import TableMotion, load_motion, scale
 from slipwise.rig.files import find_rig
+from slipwise.short_repr import short_repr
 from slipwise.simulation.replay import replay
 from slipwise.simulation.simulator import Replay
 from slipwise.studies.ensemble.distributions import with_values
@@ -21,6 +22,7 @@ from slipwise.studies.members import key_of, numbers_or_failure
 LAWS = ("paper", "coulomb")
 
 
+@short_repr
 @dataclass(frozen=True)
 class Base:
     """What all members share; words only, so that any process can make the model of it.
@@ -54,6 +56,7 @@ class Base:
         return key_of([self.law, contents], __name__)
 
 
+@short_repr
 @dataclass(frozen=True)
 class Shaken:
     """One member.
