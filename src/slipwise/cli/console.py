@@ -23,6 +23,16 @@ def say(words: str, console: Console = OUT) -> None:
     console.print(visible(words), markup=False, highlight=False, soft_wrap=True)
 
 
+def say_next(*steps: str, console: Console = OUT) -> None:
+    """Print the last line of a command: what to do now.
+
+    Args:
+        steps: commands or sentences, each possible by itself.
+        console: where to print.
+    """
+    say(f"next: {', or '.join(steps)}", console)
+
+
 def print_json(content: object) -> None:
     """Print JSON for a program to read."""
     write_out(json.dumps(content, indent=1, allow_nan=False) + "\n")

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, out_folder, say, steps
+from slipwise.cli.console import OUT, out_folder, say, say_next, steps
 from slipwise.cli.diagnose import print_effects, print_rungs
 
 #: Worst places of the error that are told.
@@ -92,6 +92,7 @@ def demo(
     ):
         say(f"  {line}")
     OUT.print(f"\n{time.perf_counter() - began:.0f} s")
+    say_next("`slipwise init FOLDER`, with a folder of your own measured runs")
 
 
 def _copy(campaign: Path) -> None:
