@@ -32,6 +32,7 @@ ARROWS: dict[str, str] = {
     "effects": "arrays channels display errors input_file jobs params record rig signals",
     "model": "channels display effects errors input_file params record rig units",
     "simulation": "arrays display effects errors jobs model motion record rig",
+    "testing": "effects errors model record rig simulation units",
     "relations": (
         "arrays campaign channels effects errors jobs model noise params record regression rig signals simulation"
     ),

@@ -13,6 +13,7 @@ from math import isfinite
 from pathlib import Path
 
 from slipwise.effects._catalogue import catalogue
+from slipwise.effects._effect import CONTRACT
 from slipwise.effects._hooks import PORTS
 from slipwise.effects._python_text import WIDTH, paragraph, sentence, words
 from slipwise.effects._written_hook import HOMES, WrittenHook, function_text, names_from_elsewhere
@@ -183,6 +184,7 @@ def _is_name(text: str) -> bool:
 def _entries(written: WrittenEffect) -> dict[str, str]:
     """Return what EFFECT says, as Python."""
     entries = {
+        "contract": str(CONTRACT),
         "port": _quoted(written.port),
         "component": _quoted(written.component),
         "equation": _quoted(written.equation),

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from driven import answers, arrays, bridge, motion, with_effect
+from slipwise.testing.driven import answers, arrays, bridge, motion, with_effect
 from shaking import shaken, sine
 from slipwise.effects import (
     DERIVED,
