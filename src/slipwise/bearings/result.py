@@ -100,7 +100,12 @@ class BearingReport(Drawn, Tabular):
         return "sum" if "sum" in names else names[0]
 
     def of(self, part: str, bearing: str | None = None) -> tuple[BearingRow, ...]:
-        """Return the rows of one part, of one bearing if it is named."""
+        """Return the rows of one part, of one bearing if it is named.
+
+        Args:
+            part: "run", "mean of cycles" or another part that a row has.
+            bearing: its name, or that of the total; all if not given.
+        """
         return tuple(r for r in self.rows if r.part == part and bearing in (None, r.bearing))
 
     def as_json(self) -> dict[str, Any]:

@@ -142,11 +142,18 @@ class Campaign(Drawn, Tabular):
         return {**_noise_in(self.runs), **_noise_in(fitted)}
 
     def with_role(self, *roles: str) -> tuple[Run, ...]:
-        """Return the runs that have one of these roles."""
+        """Return the runs that have one of these roles.
+
+        Args:
+            *roles: of "fit", "repeat", "holdout" and others that campaign.toml knows.
+        """
         return tuple(run for run in self.runs if run.role in roles)
 
     def run(self, name: str) -> Run:
         """Return a run by name.
+
+        Args:
+            name: of the run, as campaign.toml or its file has it.
 
         Raises:
             SettingError: no run has it.
@@ -157,7 +164,12 @@ class Campaign(Drawn, Tabular):
         raise SettingError(f"campaign {self.name} has no run {name!r}; it has: {', '.join(r.name for r in self.runs)}")
 
     def with_records(self, records: Mapping[str, Record], note: str) -> "Campaign":
-        """Return a campaign with other records for some runs, and say so in its notes."""
+        """Return a campaign with other records for some runs, and say so in its notes.
+
+        Args:
+            records: name of a run -> its record.
+            note: what was done, a sentence.
+        """
         runs = tuple(replace(run, record=records.get(run.name, run.record)) for run in self.runs)
         return replace(self, runs=runs, notes=(*self.notes, note))
 

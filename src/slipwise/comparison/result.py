@@ -33,6 +33,9 @@ class Comparison(Drawn, ComparisonData):
     def to_pandas(self, table: str = "components") -> "pandas.DataFrame":
         """Return one of the tables as a pandas frame.
 
+        Args:
+            table: as in `rows`.
+
         Raises:
             UnknownNameError: no such table.
             InputError: pandas is not installed.

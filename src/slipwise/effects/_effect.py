@@ -235,11 +235,18 @@ class Effect(Drawn, Tabular):
         return tuple(n for n in NEEDS if n in own)
 
     def without(self, need: str) -> str:
-        """Say why it cannot be tested in a campaign that has not what it needs, of `NEEDS`."""
+        """Say why it cannot be tested in a campaign that has not what it needs, of `NEEDS`.
+
+        Args:
+            need: of `NEEDS`.
+        """
         return NEEDS[need].format(steady=self.steady)
 
     def parameter(self, name: str) -> Parameter:
         """Look a parameter up, also one that a pad has of its own: strength[A].
+
+        Args:
+            name: of the parameter, strength or strength[A].
 
         Raises:
             UnknownNameError: no such parameter.
@@ -271,5 +278,10 @@ class Effect(Drawn, Tabular):
 
 
 def moved_channels(effect: Effect, among: Iterable[str] = CHANNELS) -> frozenset[str]:
-    """Return the names of the channels that an effect may change, of those that a record has, or that are listed."""
+    """Return the names of the channels that an effect may change, of those that a record has, or that are listed.
+
+    Args:
+        effect: that may change them.
+        among: names of channels; all that there are if not given.
+    """
     return frozenset(c for c in among if any(fnmatch.fnmatchcase(c, pattern) for pattern in effect.moves))

@@ -51,6 +51,10 @@ class GaugeFault:
     samples: tuple[str, ...] = ()
 
     def least_on(self, name: str) -> float:
-        """Return the least size that matters on a channel; the first word of `least` that fits it counts."""
+        """Return the least size that matters on a channel; the first word of `least` that fits it counts.
+
+        Args:
+            name: of the channel.
+        """
         unit = channel(name).unit
         return next(size for word, size in self.least.items() if word == unit or fnmatchcase(name, word))

@@ -91,6 +91,9 @@ class WrittenEffect:
 def effect_text(written: WrittenEffect) -> str:
     """Return the text of an effect's file.
 
+    Args:
+        written: the effect.
+
     Raises:
         UnknownNameError: no such port, or it has no such hook.
         SettingError: a name that is none in Python, a number that is not finite, or a body that is no Python.
@@ -151,6 +154,9 @@ def _check(written: WrittenEffect) -> None:
 
 def check_name(name: str) -> None:
     """Refuse what cannot be the name of a user's effect.
+
+    Args:
+        name: of the effect to be written.
 
     Raises:
         SettingError: it is no name in Python, that of a module, or one of the catalogue.

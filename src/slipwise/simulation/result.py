@@ -87,7 +87,11 @@ class Replay(Drawn):
     computing: float
 
     def summary(self, motion: TableMotion) -> dict[str, Any]:
-        """Return the numbers of summary.json; `motion` is what was replayed."""
+        """Return the numbers of summary.json; `motion` is what was replayed.
+
+        Args:
+            motion: what was replayed.
+        """
         pads = {
             pad: {
                 "N_min_kN": self.load_range[pad][0] / 1e3,
