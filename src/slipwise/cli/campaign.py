@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import out_folder, print_json, say, say_corrections, say_next, steps
+from slipwise.cli.console import can_record, out_folder, print_json, say, say_corrections, say_next, steps
 from slipwise.cli.options import (
     Allowed,
     CampaignFolder,
@@ -106,6 +106,7 @@ def compare(
     from slipwise.view.files import save_json, save_page
     from slipwise.view.pages.compare_page import compare_page
 
+    recording = can_record(recording)
     measured = sw.load_campaign(campaign)
     start = start_model(campaign, model, trust, effect)
     folder = out_folder(out)

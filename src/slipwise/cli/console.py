@@ -69,6 +69,16 @@ def progress(words: str) -> Iterator[Callable[[float], None]]:
         yield lambda fraction: bar.update(task, completed=fraction)
 
 
+def can_record(wanted: bool) -> bool:
+    """Return whether a recording is to be written; one that is wanted and cannot be is said so, and left out."""
+    from slipwise.view.recordings import WITHOUT_RERUN, is_rerun_installed
+
+    if wanted and not is_rerun_installed():
+        say(f"no recording: {WITHOUT_RERUN}, and --no-recording leaves recordings out", ERR)
+        return False
+    return wanted
+
+
 def say_corrections(corrections: Iterable[Any]) -> None:
     """Say what was done about the data before any fit, a line each.
 

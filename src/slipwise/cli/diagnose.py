@@ -10,7 +10,7 @@ from rich.console import Console
 
 import slipwise as sw
 from slipwise.cli.batch import Wanted, diagnose_many
-from slipwise.cli.console import ERR, OUT, out_folder, print_json, say, say_corrections, say_next, steps
+from slipwise.cli.console import ERR, OUT, can_record, out_folder, print_json, say, say_corrections, say_next, steps
 from slipwise.cli.diagnosis_files import write_diagnosis
 from slipwise.cli.model_edit import tell_change
 from slipwise.cli.options import (
@@ -67,6 +67,7 @@ def diagnose(
 
     Example: `slipwise diagnose campaigns/march --out out/march`
     """
+    recording = can_record(recording)
     if len(campaign) > 1:
         if accept:
             raise InputError("--accept writes the model.toml of one campaign; give one")

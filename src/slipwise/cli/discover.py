@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, out_folder, print_json, say, say_corrections, say_next, steps
+from slipwise.cli.console import OUT, can_record, out_folder, print_json, say, say_corrections, say_next, steps
 from slipwise.cli.options import CampaignFolder, Figures, Json, ModelFile, Own, Trusted, own_effects, start_model
 from slipwise.errors import visible
 
@@ -36,9 +36,9 @@ def discover(
     from slipwise.view.figures.figure_files import figures_into
     from slipwise.view.files import save_json, save_page
     from slipwise.view.pages.discovery_page import discovery_page
-    from slipwise.view.recordings.discovery_recording import write_discovery_recording
 
     sw.effects.check_name(name)  # not after minutes of search
+    recording = can_record(recording)
     measured = sw.load_campaign(campaign)
     folder = out_folder(out)
     with steps() as tell:
@@ -50,6 +50,8 @@ def discover(
         files.append(save_page(discovery_page(found), folder / "report.html"))
     files += drawn
     if recording:
+        from slipwise.view.recordings.discovery_recording import write_discovery_recording
+
         files.append(write_discovery_recording(found, folder / "discovery.rrd"))
     if json:
         print_json(found.as_json())

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import out_folder, print_json, progress, say, say_next
+from slipwise.cli.console import can_record, out_folder, print_json, progress, say, say_next
 from slipwise.errors import SettingError, SlipwiseError
 
 
@@ -70,6 +70,7 @@ def replay(
     """
     from slipwise.view.files import save_json
 
+    recording = can_record(recording)
     seconds = None if motion_dt is None else sw.quantity(motion_dt, "s", "--motion-dt")
     treatment: Any = baseline  # one of the words that load_motion checks
     shaking = sw.load_motion(
