@@ -1,13 +1,14 @@
-"""Write the pages of the documentation that come from elsewhere: effects, validation, thresholds, command line.
+"""Write the pages of the documentation that come from elsewhere: effects, validation, thresholds, commands, reference.
 
     python scripts/make_docs.py            writes the pages that are committed: effects, validation, thresholds
     python scripts/make_docs.py --check    writes nothing; exit 1 if one of them is not current
 
-A page for every effect with its picture, and the page of the command line, are made by `mkdocs build`.
+A page for every effect with its picture, the page of the command line and the API reference are made by `mkdocs build`.
 """
 
 import json
 import re
+import runpy
 import sys
 import textwrap
 from collections.abc import Iterable
@@ -244,6 +245,9 @@ def write_site_pages() -> list[str]:
         The pages of the effects as the site's navigation names them, in the order of the catalogue's list.
     """
     _write(DOCS / "command_line.md", command_line_page())
+    reference = runpy.run_path(str(Path(__file__).with_name("reference.py")))
+    for page in reference["PAGES"]:
+        _write(DOCS / "reference" / f"{page}.md", f"{_MADE}{reference['reference_page'](page)}")
     pages = []
     for row in effect_rows():
         name = row["name"]

@@ -7,6 +7,7 @@ from importlib.metadata import entry_points
 from typing import TYPE_CHECKING, Any
 
 from slipwise.errors import InputError, visible
+from slipwise.short_repr import shortened
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -30,7 +31,7 @@ class Shown(ABC):
         """Return it as the rows of a table."""
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__}: {self._headline()}>"
+        return f"<{type(self).__name__}: {shortened(self._headline())}>"
 
     def _repr_html_(self) -> str:
         """Return the headline and the table; this is what Jupyter shows."""

@@ -4,8 +4,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from slipwise.errors import SettingError, UnitError
+from slipwise.short_repr import short_repr
 
 
+@short_repr
 @dataclass(frozen=True)
 class Parameter:
     """One number of a law or of the rig.
@@ -69,6 +71,10 @@ class Parameter:
     def check(self, value: float, owner: str = "") -> float:
         """Return the value if it lies within the bounds.
 
+        Args:
+            value: in the parameter's SI unit.
+            owner: whose it is, for the message.
+
         Raises:
             SettingError: it does not; the message gives the bounds.
         """
@@ -110,7 +116,11 @@ class Parameter:
             ) from None
 
     def of_pad(self, pad: str) -> "Parameter":
-        """Return the parameter that one pad has of its own, e.g. strength[A]."""
+        """Return the parameter that one pad has of its own, e.g. strength[A].
+
+        Args:
+            pad: letter of the pad, "A".
+        """
         return replace(self, name=f"{self.name}[{pad}]", meaning=f"{self.meaning}; of pad {pad}")
 
     def row(self) -> dict[str, str | float | None]:
@@ -119,7 +129,11 @@ class Parameter:
         return {"parameter": self.name, **numbers, "unit": self.unit, "meaning": self.meaning}
 
     def snapped(self, value: float) -> float:
-        """Undo what the conversion from "300 mm" did to the last digit of a bound or of the neutral value."""
+        """Undo what the conversion from "300 mm" did to the last digit of a bound or of the neutral value.
+
+        Args:
+            value: in the parameter's SI unit.
+        """
         for exact in (self.neutral, self.typical, self.low, self.high):
             if exact is not None and same_number(value, exact):
                 return exact
@@ -142,7 +156,11 @@ class Parameter:
         return f"{in_unit:.{digits}g}{'' if unit == '1' else ' ' + unit}"
 
     def written(self, value: float) -> str | float:
-        """Return a value [SI] as a file has it: a pure number bare, anything else with its unit."""
+        """Return a value [SI] as a file has it: a pure number bare, anything else with its unit.
+
+        Args:
+            value: in the parameter's SI unit.
+        """
         text = self.shown(value)
         return text if " " in text else float(text)
 

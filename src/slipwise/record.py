@@ -85,15 +85,28 @@ class Record(Drawn):
         return np.stack([self[pattern.format(pad)] for pad in named or PADS], axis=1)
 
     def has_all(self, *names: str) -> bool:
-        """Return whether every one of these channels is there."""
+        """Return whether every one of these channels is there.
+
+        Args:
+            *names: of channels.
+        """
         return all(name in self.channels for name in names)
 
     def replaced(self, **channels: Array) -> "Record":
-        """Return a record with these channels added or replaced."""
+        """Return a record with these channels added or replaced.
+
+        Args:
+            **channels: name -> samples (n,) in the channel's SI unit.
+        """
         return Record(self.time, {**self.channels, **channels}, self.provenance)
 
     def between(self, start: float, end: float) -> "Record":
-        """Return the part with start <= time <= end [s]."""
+        """Return the part with start <= time <= end [s].
+
+        Args:
+            start: first time that is kept [s].
+            end: last time that is kept [s].
+        """
         inside = (self.time >= start) & (self.time <= end)
         return Record(self.time[inside], {n: v[inside] for n, v in self.channels.items()}, self.provenance)
 
@@ -138,6 +151,10 @@ def write_record(record: Record, path: Path) -> None:
 
     The same record gives the same bytes.
 
+    Args:
+        record: what is written.
+        path: of the file, NAME.parquet or NAME.csv.
+
     Raises:
         SettingError: another suffix.
         OutputError: it cannot be written.
@@ -181,6 +198,9 @@ def _write_csv(record: Record, stream: IO[bytes]) -> None:
 
 def read_record(path: Path | str) -> Record:
     """Read a record that `write_record` wrote as parquet.
+
+    Args:
+        path: of the file, record.parquet.
 
     Raises:
         InputError: no such file, not a parquet file, or not written by Slipwise.

@@ -5,13 +5,13 @@ from functools import cache
 import numpy as np
 import pytest
 
-import driven
-from driven import with_effect
 from shaking import shaken
 from slipwise.effects import Effect, catalogue, moved_channels
 from slipwise.model import base_model, use
 from slipwise.record import Record
 from slipwise.simulation.simulator import Replay
+from slipwise.testing import driven
+from slipwise.testing.driven import with_effect
 
 EFFECTS = [e for e in catalogue().values() if not e.replaces]
 every_effect = pytest.mark.parametrize("effect", EFFECTS, ids=lambda e: e.name)

@@ -7,10 +7,10 @@ effect and the base model's own friction cannot make of the force is left.
 import numpy as np
 import pytest
 
-from driven import base_of, with_effect
 from slipwise.effects import Effect, Limit, catalogue
 from slipwise.model import Model
 from slipwise.simulation.predict import predictor
+from slipwise.testing.driven import base_of, with_effect
 
 STEP, LOAD = 0.002, 24.5e3
 LIMITS = [(e, limit) for e in catalogue().values() for limit in e.limits]

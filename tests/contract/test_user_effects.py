@@ -13,7 +13,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from driven import motion
 from shaking import shaken, sine
 from slipwise.effects import catalogue, find_effect, load_effect
 from slipwise.errors import InputError, SettingError, SlipwiseWarning, UnknownNameError
@@ -22,6 +21,7 @@ from slipwise.model.file import load_model, save_model
 from slipwise.simulation.kernel import engine_for
 from slipwise.simulation.predict import predictor
 from slipwise.simulation.windows import Windows, simulate_windows
+from slipwise.testing.driven import motion
 from slipwise.view.words.effects import effect_rows
 
 MINE = '''

@@ -11,6 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from slipwise.arrays import Array
+from slipwise.short_repr import short_repr
 from slipwise.signals.hysteresis_loop import branches
 
 #: Slip must leave zero by this share of half its range to both sides between two crossings [1].
@@ -53,6 +54,7 @@ class Cycle:
         return np.concatenate([ends[0][None], values[first:last], ends[1][None]])
 
 
+@short_repr
 @dataclass(frozen=True)
 class CyclesOfRun:
     """How a run is cut.

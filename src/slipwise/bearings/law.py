@@ -20,11 +20,13 @@ from slipwise.estimation.intervals import COVERAGE, Intervals, compute_intervals
 from slipwise.estimation.least_squares import STEP, with_slopes
 from slipwise.estimation.objective import Objective, make_objective
 from slipwise.relations.run_data import fit_runs
+from slipwise.short_repr import short_repr
 
 #: Draws, and the seed that makes them the same in every report.
 _DRAWS, _SEED = 400, 1
 
 
+@short_repr
 @dataclass(frozen=True)
 class LawForces:
     """Friction of the pads of one run by the fitted law.

@@ -6,11 +6,13 @@ import numpy as np
 
 from slipwise.arrays import Array
 from slipwise.bearings.cycles import Cycle
+from slipwise.short_repr import short_repr
 
 #: What all pads together are called.
 SUM = "sum"
 
 
+@short_repr
 @dataclass(frozen=True)
 class Loop:
     """Force against slip of one bearing.

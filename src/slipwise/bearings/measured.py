@@ -10,11 +10,13 @@ from slipwise.bearings.cycles import CyclesOfRun, find_cycles
 from slipwise.bearings.loops import SUM, Loop
 from slipwise.campaign import Campaign, Run
 from slipwise.campaign.states import States, measured_states
+from slipwise.short_repr import short_repr
 
 #: Slip that moves by less than so many standard deviations of its gauge's noise is none.
 _SLIDES = 10.0
 
 
+@short_repr
 @dataclass(frozen=True)
 class RunLoops:
     """One run that slides.

@@ -14,6 +14,7 @@ from slipwise.bearings.quantities import QUANTITIES
 from slipwise.bearings.requirements import NotHeld
 from slipwise.display import Drawn, Tabular
 from slipwise.preparation.data_corrections import DataCorrection
+from slipwise.short_repr import short_repr
 
 #: What a row of the result is about.
 RUN, CYCLE, MEAN = "run", "cycle", "mean of cycles"
@@ -36,6 +37,7 @@ class QuantityValue:
     high: float = float("nan")
 
 
+@short_repr
 @dataclass(frozen=True)
 class BearingRow:
     """All quantities of one bearing over one cycle, over the closed cycles of a run, or over a run.
@@ -98,7 +100,12 @@ class BearingReport(Drawn, Tabular):
         return "sum" if "sum" in names else names[0]
 
     def of(self, part: str, bearing: str | None = None) -> tuple[BearingRow, ...]:
-        """Return the rows of one part, of one bearing if it is named."""
+        """Return the rows of one part, of one bearing if it is named.
+
+        Args:
+            part: "run", "mean of cycles" or another part that a row has.
+            bearing: its name, or that of the total; all if not given.
+        """
         return tuple(r for r in self.rows if r.part == part and bearing in (None, r.bearing))
 
     def as_json(self) -> dict[str, Any]:

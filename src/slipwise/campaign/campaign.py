@@ -17,11 +17,13 @@ from slipwise.errors import SettingError
 from slipwise.noise.gauges import Gauge, measure_gauge_noise
 from slipwise.record import Record
 from slipwise.rig import Specimen
+from slipwise.short_repr import short_repr
 from slipwise.signals.filters import LowPass
 
 ROLES: tuple[str, ...] = ("fit", "repeat", "holdout")
 
 
+@short_repr
 @dataclass(frozen=True)
 class Thinning:
     """Samples of which only some were kept.
@@ -35,6 +37,7 @@ class Thinning:
     step: float
 
 
+@short_repr
 @dataclass(frozen=True)
 class Logger:
     """What the logger did to the channels before it stored them.
@@ -73,6 +76,7 @@ class Logger:
         return self.every
 
 
+@short_repr
 @dataclass(frozen=True)
 class Run:
     """One run of a campaign.
@@ -138,11 +142,18 @@ class Campaign(Drawn, Tabular):
         return {**_noise_in(self.runs), **_noise_in(fitted)}
 
     def with_role(self, *roles: str) -> tuple[Run, ...]:
-        """Return the runs that have one of these roles."""
+        """Return the runs that have one of these roles.
+
+        Args:
+            *roles: of "fit", "repeat", "holdout" and others that campaign.toml knows.
+        """
         return tuple(run for run in self.runs if run.role in roles)
 
     def run(self, name: str) -> Run:
         """Return a run by name.
+
+        Args:
+            name: of the run, as campaign.toml or its file has it.
 
         Raises:
             SettingError: no run has it.
@@ -153,7 +164,12 @@ class Campaign(Drawn, Tabular):
         raise SettingError(f"campaign {self.name} has no run {name!r}; it has: {', '.join(r.name for r in self.runs)}")
 
     def with_records(self, records: Mapping[str, Record], note: str) -> "Campaign":
-        """Return a campaign with other records for some runs, and say so in its notes."""
+        """Return a campaign with other records for some runs, and say so in its notes.
+
+        Args:
+            records: name of a run -> its record.
+            note: what was done, a sentence.
+        """
         runs = tuple(replace(run, record=records.get(run.name, run.record)) for run in self.runs)
         return replace(self, runs=runs, notes=(*self.notes, note))
 

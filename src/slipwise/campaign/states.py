@@ -25,11 +25,13 @@ from slipwise.rig import Specimen
 from slipwise.rig.frame import storey_channels
 from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes, vertical_acceleration
+from slipwise.short_repr import short_repr
 from slipwise.signals.derivative import derivative
 from slipwise.signals.filters import LowPass
 from slipwise.signals.fused import Fused, fuse, fuse_scaled
 
 
+@short_repr
 @dataclass(frozen=True)
 class States:
     """Measured states of one run on a uniform time axis, lag of a causal logger taken out.

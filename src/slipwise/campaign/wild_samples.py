@@ -13,6 +13,7 @@ import numpy as np
 from slipwise.arrays import Array, Mask
 from slipwise.channels import channel
 from slipwise.rig import Specimen
+from slipwise.short_repr import short_repr
 from slipwise.signals.short_bursts import bridge_samples, short_bursts, stretches
 from slipwise.units import convert
 
@@ -22,6 +23,7 @@ _UNEXPLAINED = 0.5
 _NAMED = 3
 
 
+@short_repr
 @dataclass(frozen=True)
 class WildSamples:
     """Wild samples of one channel of one run.

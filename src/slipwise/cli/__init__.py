@@ -1,6 +1,7 @@
 """The command line: one short function per command; each command is one verb of the library."""
 
 import sys
+from collections.abc import Callable
 from typing import Annotated
 
 import typer
@@ -38,22 +39,24 @@ app = typer.Typer(
     rich_markup_mode="markdown",
     pretty_exceptions_enable=False,
 )
-for command in (
-    demo.demo, replay.replay, campaign.init, campaign.audit, campaign.compare, diagnose.diagnose, diagnose.ladder,
-    discover.discover, workbench.workbench, model_edit.add, model_edit.remove,
-):  # fmt: skip
-    app.command()(command)
-app.command("next")(next_test.next_motion)
-app.command()(plan.plan)
-app.command()(bearing.bearing)
-app.command()(consequence.consequence)
-app.command()(export.export)
-app.command()(watch.watch)
-for command in (
-    ensemble.ensemble, bench.bench, paper.paper, view.view, catalogue.rigs, catalogue.channels, catalogue.motions,
-    effects.effects,
-):  # fmt: skip
-    app.command()(command)
+#: What one does at a stage of the work -> its commands, as the README lists them.
+STAGES: dict[str, tuple[Callable[..., object], ...]] = {
+    "See what it does": (demo.demo,),
+    "Measure": (plan.plan, campaign.init, watch.watch, campaign.audit, bearing.bearing),
+    "Compare": (campaign.compare, workbench.workbench),
+    "Name": (
+        diagnose.diagnose, diagnose.ladder, discover.discover, model_edit.add, model_edit.remove, effects.effects,
+        bench.bench,
+    ),
+    "Decide": (next_test.next_motion, consequence.consequence),
+    "Simulate": (
+        replay.replay, view.view, export.export, ensemble.ensemble, paper.paper, catalogue.rigs, catalogue.channels,
+        catalogue.motions,
+    ),
+}  # fmt: skip
+for stage, commands in STAGES.items():
+    for command in commands:
+        app.command("next" if command is next_test.next_motion else None, rich_help_panel=stage)(command)
 
 
 def _print_version(wanted: bool) -> None:

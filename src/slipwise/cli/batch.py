@@ -12,7 +12,7 @@ from typing import Any
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import ERR, counting, out_folder, print_json, say
+from slipwise.cli.console import ERR, counting, out_folder, print_json, say, say_next
 from slipwise.cli.diagnosis_files import write_diagnosis
 from slipwise.cli.options import own_effects, start_model
 from slipwise.cli.workers import chosen_executor
@@ -131,6 +131,7 @@ def diagnose_many(
                 say(f"{head}: {words}")
         for path in files:
             say(f"wrote {path}")
+        say_next(f"open {files[0]}, which leads to the page of every campaign")
     end(outcomes)
 
 

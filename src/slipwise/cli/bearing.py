@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import out_folder, print_json, say, say_corrections, steps
+from slipwise.cli.console import out_folder, print_json, say, say_corrections, say_next, steps
 from slipwise.cli.options import Allowed, CampaignFolder, Figures, Json, ModelFile, Trusted, start_model
 
 
@@ -56,6 +56,7 @@ def bearing(
     for words in (without_workbook, *(f"wrote {path}" for path in files)):
         if words:
             say(words)
+    say_next(f"open {page}")
 
 
 def _tell(found: "sw.BearingReport") -> None:

@@ -7,7 +7,7 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.batch import Wanted, end, run_campaigns, write_together
-from slipwise.cli.console import out_folder, print_json, say
+from slipwise.cli.console import out_folder, print_json, say, say_next
 from slipwise.cli.workers import Cluster, Workers
 
 
@@ -55,4 +55,5 @@ def bench(
         for words in failure_sentences(outcomes):
             say(words)
         print_table("Score", rate_rows(scored))
+        say_next(f"open {place / 'index.html'}, which leads to the page of every campaign")
     end(outcomes)

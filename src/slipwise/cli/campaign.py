@@ -2,12 +2,13 @@
 
 import sys
 from pathlib import Path
+from shlex import quote
 from typing import Annotated
 
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import out_folder, print_json, say, say_corrections, steps
+from slipwise.cli.console import can_record, out_folder, print_json, say, say_corrections, say_next, steps
 from slipwise.cli.options import (
     Allowed,
     CampaignFolder,
@@ -39,12 +40,13 @@ def init(
     specimen = folder / "specimen.toml"
     was_there = specimen.exists()
     path = sw.init_campaign(folder, ask=ask)
-    say(f"wrote {path}; read it, and decide what is marked in it")
+    say(f"wrote {path}")
     if specimen.exists() and not was_there:
         say(f"wrote {specimen}: no rig of the package fits; fill in its places, sizes and heights")
     for line in path.read_text(encoding="utf-8").splitlines():
         if line.startswith(("# not read: ", "# note: ")):
             say(line.removeprefix("# "))
+    say_next(f"read {path} and decide what is marked in it, then `slipwise audit {quote(str(folder))}`")
 
 
 def _ask(question: str, default: str) -> str:
@@ -79,6 +81,7 @@ def audit(campaign: CampaignFolder, effect: Own = None, correct: Correct = None,
         say(f"note: {words}")
     for words in found.cannot:
         say(f"could not be tested: {words}")
+    say_next(f"`slipwise compare {quote(str(campaign))}`, which takes `--correct FINDING` for what is wrong")
 
 
 def compare(
@@ -103,6 +106,7 @@ def compare(
     from slipwise.view.files import save_json, save_page
     from slipwise.view.pages.compare_page import compare_page
 
+    recording = can_record(recording)
     measured = sw.load_campaign(campaign)
     start = start_model(campaign, model, trust, effect)
     folder = out_folder(out)
@@ -133,3 +137,5 @@ def compare(
     print_table("Noise of every gauge, one sample", gauge_rows(found.gauges))
     for path in files:
         say(f"wrote {path}")
+    shown = [f"`slipwise view {quote(str(folder))}`"] if recording else []
+    say_next(f"open {page}", *shown, f"`slipwise diagnose {quote(str(campaign))}` names what is missing")

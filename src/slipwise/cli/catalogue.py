@@ -1,12 +1,13 @@
 """`slipwise rigs`, `channels`, `motions`: what there is, from the code itself."""
 
 from pathlib import Path
+from shlex import quote
 from typing import Annotated
 
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import print_json
+from slipwise.cli.console import print_json, say_next
 from slipwise.errors import SettingError
 
 Json = Annotated[bool, typer.Option("--json", help="Print JSON for a program to read.")]
@@ -29,15 +30,15 @@ def rigs(
     """
     if new is not None:
         path, written = sw.rig.new_rig(new, Path.cwd())
-        typer.echo(
-            f"wrote {path.relative_to(Path.cwd())}: edit it; `slipwise replay sine:2Hz,0.3g --rig {new} --out DIR`"
-        )
+        typer.echo(f"wrote {path.relative_to(Path.cwd())}: the places, sizes and masses of the rig")
         typer.echo(f"wrote {written.relative_to(Path.cwd())}: its MJCF; after edits `slipwise rigs {new} --mjcf` again")
+        say_next(f"edit {path.relative_to(Path.cwd())}, then `slipwise replay sine:2Hz,0.3g --rig {new} --out DIR`")
         return
     if mjcf:
         if rig is None:
             raise SettingError("--mjcf needs the rig: `slipwise rigs my_rig --mjcf`")
         typer.echo(f"wrote {sw.rig.write_mjcf(sw.rig.load_specimen(rig))}")
+        say_next(f"`slipwise replay sine:2Hz,0.3g --rig {quote(rig)} --out DIR`")
         return
     rows = []
     for name in sw.rig.RIGS if rig is None else (rig,):
@@ -56,7 +57,8 @@ def rigs(
         )
     if rig is None and not json:  # a rig that ships lies in a file of its own name
         rows = [{key: value for key, value in row.items() if key != "file"} for row in rows]
-    _show("Rigs", rows, json)
+    one = quote(rig) if rig else "bridge1"
+    _show("Rigs", rows, json, f"`slipwise replay sine:2Hz,0.3g --rig {one}`", "`slipwise rigs --new my_rig` begins one")
 
 
 def channels(json: Json = False) -> None:
@@ -66,7 +68,7 @@ def channels(json: Json = False) -> None:
     """
     known = sw.channels.CHANNELS.values()
     rows = [{"channel": c.name, "unit": c.shown_in, "where": c.place, "positive": c.sign} for c in known]
-    _show("Channels", rows, json)
+    _show("Channels", rows, json, "`slipwise init FOLDER` finds them in the columns of your files")
 
 
 def motions(json: Json = False) -> None:
@@ -86,12 +88,14 @@ def motions(json: Json = False) -> None:
         return
     print_table("Synthetic motions", made)
     print_table("Recorded motions", read)
+    say_next("`slipwise replay MOTION --out DIR`, with a line of the examples or with files")
 
 
-def _show(title: str, rows: list[dict], json: bool) -> None:
+def _show(title: str, rows: list[dict], json: bool, *steps: str) -> None:
     from slipwise.view.words.terminal import print_table
 
     if json:
         print_json(rows)
     else:
         print_table(title, rows)
+        say_next(*steps)

@@ -23,6 +23,16 @@ def say(words: str, console: Console = OUT) -> None:
     console.print(visible(words), markup=False, highlight=False, soft_wrap=True)
 
 
+def say_next(*steps: str, console: Console = OUT) -> None:
+    """Print the last line of a command: what to do now.
+
+    Args:
+        steps: commands or sentences, each possible by itself.
+        console: where to print.
+    """
+    say(f"next: {', or '.join(steps)}", console)
+
+
 def print_json(content: object) -> None:
     """Print JSON for a program to read."""
     write_out(json.dumps(content, indent=1, allow_nan=False) + "\n")
@@ -57,6 +67,16 @@ def progress(words: str) -> Iterator[Callable[[float], None]]:
     with Progress(*columns, console=ERR, transient=True, disable=not ERR.is_terminal) as bar:
         task = bar.add_task(words, total=1.0)
         yield lambda fraction: bar.update(task, completed=fraction)
+
+
+def can_record(wanted: bool) -> bool:
+    """Return whether a recording is to be written; one that is wanted and cannot be is said so, and left out."""
+    from slipwise.view.recordings import WITHOUT_RERUN, is_rerun_installed
+
+    if wanted and not is_rerun_installed():
+        say(f"no recording: {WITHOUT_RERUN}, and --no-recording leaves recordings out", ERR)
+        return False
+    return wanted
 
 
 def say_corrections(corrections: Iterable[Any]) -> None:

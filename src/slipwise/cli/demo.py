@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, out_folder, say, steps
+from slipwise.cli.console import OUT, can_record, out_folder, say, say_next, steps
 from slipwise.cli.diagnose import print_effects, print_rungs
 
 #: Worst places of the error that are told.
@@ -28,7 +28,6 @@ def demo(
     from slipwise.view.files import save_json, save_page
     from slipwise.view.geometry import geometry_of
     from slipwise.view.pages.diagnosis_page import diagnosis_page
-    from slipwise.view.recordings.comparison import write_comparison
     from slipwise.view.words.diagnosis_words import floors
     from slipwise.view.words.numbers import counted, in_words
     from slipwise.view.words.terminal import print_table
@@ -81,17 +80,22 @@ def demo(
     save_json(found.as_json(), folder / "diagnosis.json")
     save_json(ladder.as_json(), folder / "ladder.json")
     save_page(diagnosis_page(found, ladder), folder / "report.html")
-    seen, simulated = found.replays()
-    write_comparison(seen, simulated, geometry_of(rig), folder / "before_and_after.rrd", found.sentence)
+    recorded = can_record(True)
+    if recorded:
+        from slipwise.view.recordings.comparison import write_comparison
+
+        seen, simulated = found.replays()
+        write_comparison(seen, simulated, geometry_of(rig), folder / "before_and_after.rrd", found.sentence)
     _say("5  Look at it", "The report opens in any browser, the recording in the rerun viewer:")
     for line in (
         f"{folder / 'report.html'}",
-        f"slipwise view {folder}",
+        *((f"slipwise view {folder}",) if recorded else ()),
         f"slipwise diagnose {campaign} --model {campaign / 'model.toml'}   ({found.left_over})",
         *(f"slipwise effects {name}   (what it is, and where it comes from)" for name in found.verdict.effects),
     ):
         say(f"  {line}")
     OUT.print(f"\n{time.perf_counter() - began:.0f} s")
+    say_next("`slipwise init FOLDER`, with a folder of your own measured runs")
 
 
 def _copy(campaign: Path) -> None:

@@ -2,6 +2,7 @@
 
 from math import isfinite
 from pathlib import Path
+from shlex import quote
 from typing import Annotated
 
 import typer
@@ -9,7 +10,7 @@ from rich.console import Console
 
 import slipwise as sw
 from slipwise.cli.batch import Wanted, diagnose_many
-from slipwise.cli.console import ERR, OUT, out_folder, print_json, say, say_corrections, steps
+from slipwise.cli.console import ERR, OUT, can_record, out_folder, print_json, say, say_corrections, say_next, steps
 from slipwise.cli.diagnosis_files import write_diagnosis
 from slipwise.cli.model_edit import tell_change
 from slipwise.cli.options import (
@@ -80,6 +81,7 @@ def diagnose(
 
     Example: `slipwise diagnose campaigns/march --out out/march`
     """
+    recording = can_record(recording)
     if len(campaign) > 1:
         if accept:
             raise InputError("--accept writes the model.toml of one campaign; give one")
@@ -182,6 +184,8 @@ def _diagnose_one(
         _show(found, folder, recording and measured.specimen.free, figures, json, timings)
         if session is not None:
             _accept(found, session, ERR if json else OUT)
+        if not json:
+            say_next(f"open {folder / 'report.html'}", *_next_steps(found, campaign, accepted=accept))
     finally:
         if session is not None:
             session.close()
@@ -192,6 +196,18 @@ def _refuse_unknown(names: list[str], own: list[str] | None) -> None:
     for name in names:
         if name not in sw.effects.catalogue() and not own:
             raise unknown_name("effect", name, sw.effects.catalogue(), "`slipwise effects` lists them.")
+
+
+def _next_steps(found: "sw.Diagnosis", campaign: Path, accepted: bool) -> list[str]:
+    """Return what a verdict suggests."""
+    place, kind = quote(str(campaign)), found.verdict.kind
+    if kind == "ambiguous":
+        return [f"`slipwise next {place}` for a motion that tells them apart"]
+    if kind == "unknown":
+        return [f"`slipwise discover {place}` for its law"]
+    if accepted or not found.verdict.effects:
+        return [f"`slipwise bearing {place}` for what standards ask"]
+    return [f"`slipwise add {found.verdict.effects[0]} --campaign {place}`"]
 
 
 def _accept(found: "sw.Diagnosis", session: "sw.Session", console: Console) -> None:
@@ -329,6 +345,7 @@ def ladder(
     screened, refitted = found.tried
     OUT.print(f"{screened} candidates compared, {refitted} hypotheses refitted, {found.seconds:.0f} s; {found.stopped}")
     _wrote([content, picture])
+    say_next(f"look at {picture}", f"`slipwise diagnose {quote(str(campaign))}` for how sure that is")
 
 
 def print_rungs(found: "sw.Ladder") -> None:

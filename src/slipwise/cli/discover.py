@@ -3,12 +3,13 @@
 from collections.abc import Sequence
 from datetime import date
 from pathlib import Path
+from shlex import quote
 from typing import Annotated
 
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, out_folder, print_json, say, say_corrections, steps
+from slipwise.cli.console import OUT, can_record, out_folder, print_json, say, say_corrections, say_next, steps
 from slipwise.cli.options import CampaignFolder, Figures, Json, ModelFile, Own, Trusted, own_effects, start_model
 from slipwise.errors import visible
 
@@ -35,9 +36,9 @@ def discover(
     from slipwise.view.figures.figure_files import figures_into
     from slipwise.view.files import save_json, save_page
     from slipwise.view.pages.discovery_page import discovery_page
-    from slipwise.view.recordings.discovery_recording import write_discovery_recording
 
     sw.effects.check_name(name)  # not after minutes of search
+    recording = can_record(recording)
     measured = sw.load_campaign(campaign)
     folder = out_folder(out)
     with steps() as tell:
@@ -49,6 +50,8 @@ def discover(
         files.append(save_page(discovery_page(found), folder / "report.html"))
     files += drawn
     if recording:
+        from slipwise.view.recordings.discovery_recording import write_discovery_recording
+
         files.append(write_discovery_recording(found, folder / "discovery.rrd"))
     if json:
         print_json(found.as_json())
@@ -60,24 +63,24 @@ def discover(
             say(f"{law.name}.{c.name} = {c.value:.4g} {c.unit}" + _interval(c.low, c.high))
         for words in law.rivals:
             say(f"explains as much: {words}")
-    if any(law.alternatives for law in found.laws):
-        say(f"slipwise next {campaign} ranks table motions that would tell them apart")
     for words in found.cannot_judge:
         say(f"cannot judge {words}")
-    if found.files:
-        say("add with:")
-        for command in _added(campaign, found.beside, found.files):
-            say(f"  {command}")
     for path in files:
         say(f"wrote {path}")
+    if any(law.alternatives for law in found.laws):
+        say(f"`slipwise next {quote(str(campaign))}` ranks table motions that would tell them apart")
+    added = _added(campaign, found.beside, found.files) if found.files else []
+    for command in added[:-1]:
+        say(f"first: `{command}`")
+    say_next(f"`{added[-1]}`" if added else f"`slipwise diagnose {quote(str(campaign))}`")
 
 
 def _added(campaign: Path, beside: Sequence[str], files: Sequence[Path]) -> list[str]:
     """Return the commands that add effects, one after another: a file that is in the model by then is trusted anew."""
-    out = [f"slipwise add {effect} --campaign {campaign}" for effect in beside]
+    out = [f"slipwise add {effect} --campaign {quote(str(campaign))}" for effect in beside]
     for number, file in enumerate(files):
-        trusted = "".join(f" --effect {earlier}" for earlier in files[:number])
-        out.append(f"slipwise add {file} --campaign {campaign}{trusted}")
+        trusted = "".join(f" --effect {quote(str(earlier))}" for earlier in files[:number])
+        out.append(f"slipwise add {quote(str(file))} --campaign {quote(str(campaign))}{trusted}")
     return out
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, out_folder, print_json, say
+from slipwise.cli.console import OUT, out_folder, print_json, say, say_next
 
 
 def effects(
@@ -43,6 +43,7 @@ def effects(
             print_json(effect_rows())
         else:
             print_effects(console=OUT)
+            say_next("`slipwise effects NAME` shows one", "`slipwise effects --new my_effect` begins one of your own")
         return
     effect = sw.effects.find_effect(name)
     if json:
@@ -64,6 +65,8 @@ def effects(
             saved = save_figure(effect_picture(effect), picture)
         if not json and not source:
             say(f"Picture: {saved}")
+    if not json and not source:
+        say_next(f"`slipwise replay sine:2Hz,0.3g,cycles=12 --effect {quote(name)}` shakes Bridge 1 with it")
 
 
 def _write_new(name: str, port: str | None, out: Path | None) -> None:
@@ -81,6 +84,7 @@ def _write_new(name: str, port: str | None, out: Path | None) -> None:
         (f"slipwise diagnose CAMPAIGN --effect {file}", "lets it compete with the catalogue"),
     ):
         say(f"  {command}  # {words}")
+    say_next(f"edit {file}, then `slipwise effects {file}`")
 
 
 def _asks(effect: "sw.Effect") -> list[str]:

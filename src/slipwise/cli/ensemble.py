@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import counting, out_folder, print_json, say
+from slipwise.cli.console import counting, out_folder, print_json, say, say_next
 from slipwise.cli.workers import Cluster, Workers, chosen_executor
 
 
@@ -72,6 +72,9 @@ def ensemble(
     _tell(found, printed_tables(found))
     for path in files:
         say(f"wrote {path}")
+    say_next(
+        f"open {folder / 'quantiles.csv'} in a spreadsheet", "the same command with --limit counts what exceeds it"
+    )
 
 
 def _tell(found: "sw.ensemble.Ensemble", tables: list) -> None:

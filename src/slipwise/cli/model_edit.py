@@ -2,13 +2,14 @@
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from shlex import quote
 from typing import Annotated
 
 import typer
 from rich.console import Console
 
 import slipwise as sw
-from slipwise.cli.console import OUT, say, steps
+from slipwise.cli.console import OUT, say, say_next, steps
 from slipwise.cli.options import Allowed, Trusted
 
 Folder = Annotated[Path, typer.Option("--campaign", help="Folder with campaign.toml; model.toml is kept there too.")]
@@ -51,6 +52,8 @@ def _change(change: "Callable[..., sw.ModelChange]", name: str, campaign: Path, 
             changed = change(name, session, progress=tell)
         tell_change(changed, held_out=bool(session.campaign.with_role("holdout")))
         say(f"wrote {session.accept()}")
+        place = quote(str(campaign))
+        say_next(f"`slipwise diagnose {place}`: is something else missing?", f"`slipwise workbench {place}` undoes it")
     finally:
         session.close()
 

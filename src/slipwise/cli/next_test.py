@@ -1,12 +1,13 @@
 """`slipwise next`: which table motion would tell the rivals apart."""
 
 from pathlib import Path
+from shlex import quote
 from typing import Annotated
 
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import out_folder, print_json, say, say_corrections, steps
+from slipwise.cli.console import out_folder, print_json, say, say_corrections, say_next, steps
 from slipwise.cli.options import CampaignFolder, Json, ModelFile, Own, Trusted, own_effects, start_model
 
 
@@ -50,6 +51,17 @@ def next_motion(
         _tell(ranked)
         if folder is not None:
             say(f"wrote {folder / 'next.json'}")
+        say_next(*_next_steps(ranked, campaign))
+
+
+def _next_steps(ranked: "sw.NextTest", campaign: Path) -> list[str]:
+    best = next((p.motion for p in ranked.proposals if not p.refused and not p.failed), None)
+    if best is None:
+        return [f"`slipwise workbench {quote(str(campaign))}`"]
+    return [
+        f"shake the rig by {best}, add the run to campaign.toml, and `slipwise diagnose {quote(str(campaign))}` again",
+        f"see it first: `slipwise replay {quote(best)}`",
+    ]
 
 
 def _tell(ranked: "sw.NextTest") -> None:

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import OUT, out_folder, print_json, progress, say
+from slipwise.cli.console import OUT, out_folder, print_json, progress, say, say_next
 
 #: Motions of the ensemble in quick mode.
 _QUICK = 8
@@ -71,3 +71,4 @@ def paper(
     OUT.print(f"\n{counts}; {result.replays} replays in {result.seconds:.0f} s", markup=False, highlight=False)
     for path in (page, folder / "paper.json"):
         say(f"wrote {path}")
+    say_next(f"open {page}")

@@ -2,12 +2,13 @@
 
 import time
 from pathlib import Path
+from shlex import quote
 from typing import Annotated, Any
 
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import out_folder, print_json, progress, say
+from slipwise.cli.console import can_record, out_folder, print_json, progress, say, say_next
 from slipwise.errors import SettingError, SlipwiseError
 
 
@@ -69,6 +70,7 @@ def replay(
     """
     from slipwise.view.files import save_json
 
+    recording = can_record(recording)
     seconds = None if motion_dt is None else sw.quantity(motion_dt, "s", "--motion-dt")
     treatment: Any = baseline  # one of the words that load_motion checks
     shaking = sw.load_motion(
@@ -115,6 +117,7 @@ def replay(
         print_json(numbers)
     else:
         _tell(numbers, shaking, files)
+        say_next(_next_step(folder, rig, pictures, recording))
 
 
 def _shaped(
@@ -148,6 +151,14 @@ def _model(rig: str, law: str, effects: list[str]) -> "sw.Model":
     for name in effects:
         model = model.adding(sw.use(name))
     return model
+
+
+def _next_step(folder: Path, rig: str, pictures: bool, recording: bool) -> str:
+    if recording:
+        return f"`slipwise view {quote(str(folder))}` shows the rig in motion"
+    if pictures:
+        return f"look at the pictures in {folder}"
+    return f"read the record: `slipwise.read_record` in Python, or any program; {rig} is at its rated values"
 
 
 def _write_record(answer: "sw.Replay", folder: Path, csv: bool) -> Path:

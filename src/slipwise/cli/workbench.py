@@ -1,10 +1,12 @@
 """`slipwise workbench`: a local page on which a model is compared, changed, fitted and accepted."""
 
+from shlex import quote
 from typing import Annotated
 
 import typer
 
 import slipwise as sw
+from slipwise.cli.console import say_next
 from slipwise.cli.options import Allowed, CampaignFolder, Trusted
 
 
@@ -22,3 +24,4 @@ def workbench(
     Example: `slipwise workbench campaigns/march`
     """
     sw.workbench.serve(campaign, trust=trust or effect or (), port=port, show=show)
+    say_next(f"`slipwise workbench {quote(str(campaign))}` goes on where this ended")

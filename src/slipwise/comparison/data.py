@@ -22,7 +22,7 @@ from slipwise.noise.gauges import Gauge
 from slipwise.preparation.data_corrections import DataCorrection
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ComparisonData:
     """A model held against a campaign.
 
@@ -81,7 +81,12 @@ class ComparisonData:
         return tuple(self.residuals)
 
     def error(self, relation: str, *, held_out: bool) -> float | None:
-        """Return the error of a relation over all fitted, or all held-out, runs [floors]; None without such runs."""
+        """Return the error of a relation over all fitted, or all held-out, runs [floors]; None without such runs.
+
+        Args:
+            relation: name of the balance.
+            held_out: whether held-out runs are asked for, or fitted ones.
+        """
         return pool_errors(self.components, relation, held_out=held_out)
 
     @property

@@ -12,12 +12,14 @@ from slipwise.arrays import Array
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Intervals
 from slipwise.estimation.least_squares import STEP
+from slipwise.short_repr import short_repr
 from slipwise.simulation.predict import predictor
 
 #: Points of the surface along either axis.
 _PRESSURES, _SPEEDS = 9, 12
 
 
+@short_repr
 @dataclass(frozen=True)
 class FrictionSurface:
     """Coefficient of friction of the fitted model where the campaign has been.

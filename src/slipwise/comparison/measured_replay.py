@@ -17,6 +17,7 @@ from slipwise.model import Model
 from slipwise.motion.resample import resample
 from slipwise.motion.table_motion import TableMotion
 from slipwise.record import Record
+from slipwise.short_repr import short_repr
 from slipwise.signals.filters import lowpass
 from slipwise.simulation.kernel.layout import buffer_memories, pad_memories
 from slipwise.simulation.predict import Predictor, predictor
@@ -31,6 +32,7 @@ SETTLE = 0.15
 _END = 0.02
 
 
+@short_repr
 @dataclass(frozen=True)
 class SystemRun:
     """One run at system level.

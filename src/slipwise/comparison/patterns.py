@@ -12,6 +12,7 @@ import numpy as np
 from slipwise.arrays import Array
 from slipwise.comparison.cells import Samples, choose_edges
 from slipwise.comparison.mean_residual import compute_mean_residual
+from slipwise.short_repr import short_repr
 
 #: What a mean residual is drawn and sorted over.
 KINDS: tuple[str, ...] = ("since reversal", "speed", "pressure", "position", "path", "time")
@@ -21,6 +22,7 @@ _FEWEST = 4.0
 _EQUAL, _SURE = 1.2, 2.0
 
 
+@short_repr
 @dataclass(frozen=True)
 class Pattern:
     """Mean residual of one relation over the bins of one state.

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, repr=False)
-class Comparison(ComparisonData, Drawn):
+class Comparison(Drawn, ComparisonData):
     """A model held against a campaign; attributes as `ComparisonData`."""
 
     def rows(self, table: str = "components") -> list[dict[str, Any]]:
@@ -32,6 +32,9 @@ class Comparison(ComparisonData, Drawn):
 
     def to_pandas(self, table: str = "components") -> "pandas.DataFrame":
         """Return one of the tables as a pandas frame.
+
+        Args:
+            table: as in `rows`.
 
         Raises:
             UnknownNameError: no such table.

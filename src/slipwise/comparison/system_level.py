@@ -25,6 +25,7 @@ from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.model import Model, use
 from slipwise.relations.run_data import FitRun
+from slipwise.short_repr import short_repr
 from slipwise.signals.ends import in_frequency
 from slipwise.simulation.simulator import DT
 
@@ -67,6 +68,7 @@ class SystemError:
     share: float
 
 
+@short_repr
 @dataclass(frozen=True)
 class SystemLevel:
     """All runs at system level.

@@ -15,11 +15,13 @@ from slipwise.selection.importance import Importance
 from slipwise.selection.inclusion import ABSENT, Inclusion
 from slipwise.selection.plainer import holds_as_limit
 from slipwise.selection.search_state import Search
+from slipwise.short_repr import short_repr
 
 #: Nothing is surer than this many standard errors.
 _SUREST = 30.0
 
 
+@short_repr
 @dataclass(frozen=True)
 class Rival:
     """An effect in the place of one that was found.
@@ -33,6 +35,7 @@ class Rival:
     behind: float
 
 
+@short_repr
 @dataclass(frozen=True)
 class EffectFinding:
     """One effect of a final model, with all gauges on which it acts.

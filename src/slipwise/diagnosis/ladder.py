@@ -30,8 +30,10 @@ from slipwise.selection.hypothesis_fit import make_fit
 from slipwise.selection.proposals import MOST_EFFECTS
 from slipwise.selection.search_state import Search
 from slipwise.selection.select import select_effects
+from slipwise.short_repr import short_repr
 
 
+@short_repr
 @dataclass(frozen=True)
 class LadderStep:
     """One model of the ladder.

@@ -27,11 +27,13 @@ from slipwise.selection.importance import Importance
 from slipwise.selection.power import TWINS, EffectPower, compute_power
 from slipwise.selection.search_state import Search
 from slipwise.selection.upper_limits import UpperLimit
+from slipwise.short_repr import short_repr
 
 #: Number of the format of diagnosis.json.
 SCHEMA = 2
 
 
+@short_repr
 @dataclass(frozen=True)
 class Candidate:
     """A hypothesis that was refitted.

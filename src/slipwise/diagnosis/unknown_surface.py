@@ -22,6 +22,7 @@ from slipwise.residual_map.splines import SplineBasis, choose_equal_bins
 from slipwise.residual_map.states import WORDS, DrivingState, measured_states, pad_instants, pad_states
 from slipwise.rig.frame import frame_push
 from slipwise.selection.hypothesis import Hypothesis
+from slipwise.short_repr import short_repr
 
 #: Bins of a curve and of each side of a surface.
 _BINS_ONE, _BINS_TWO = 24, 10
@@ -41,6 +42,7 @@ SHARE, LEVEL = 0.10, 0.10
 _OWN_NOISE = frozenset({("vertical", "heave"), ("speed_rate", "girder")})
 
 
+@short_repr
 @dataclass(frozen=True)
 class ResidualSurface:
     """A missing force as a binned surface.

@@ -22,6 +22,7 @@ from slipwise.preparation.sample_fault import SampleFault
 from slipwise.relations.parameters import Term
 from slipwise.selection.hypothesis import Hypothesis
 from slipwise.selection.search_state import Search
+from slipwise.short_repr import short_repr
 
 #: Share of a probability that is left where no run is held out, which could have confirmed it [1].
 _UNCONFIRMED = 0.9
@@ -35,6 +36,7 @@ _SUREST_ODDS = 6.0
 _MUCH = (3.0, 0.05)
 
 
+@short_repr
 @dataclass(frozen=True)
 class Verdict:
     """What is missing.

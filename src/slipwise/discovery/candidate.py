@@ -5,8 +5,10 @@ from dataclasses import dataclass
 from slipwise.residual_map.curve import ResidualCurve
 from slipwise.residual_map.ports import Gate, Port
 from slipwise.residual_map.states import DrivingState
+from slipwise.short_repr import short_repr
 
 
+@short_repr
 @dataclass(frozen=True)
 class CurveCandidate:
     """A dependence on one state, or on two.

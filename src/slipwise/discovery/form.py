@@ -18,6 +18,7 @@ import numpy as np
 
 from slipwise.arrays import Array
 from slipwise.errors import SettingError
+from slipwise.short_repr import short_repr
 
 #: What the text of a form may call, as it acts on arrays.
 FUNCTIONS: dict[str, Any] = {
@@ -29,6 +30,7 @@ FUNCTIONS: dict[str, Any] = {
 KINDS: tuple[str, ...] = ("place", "width", "period", "number", "reference")
 
 
+@short_repr
 @dataclass(frozen=True)
 class Constant:
     """A constant of a form.
@@ -50,6 +52,7 @@ class Constant:
     high: float = 1.0
 
 
+@short_repr
 @dataclass(frozen=True)
 class Form:
     """How a force goes with a state.

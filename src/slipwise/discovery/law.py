@@ -8,6 +8,7 @@ from slipwise.discovery.form import FUNCTIONS, Form
 from slipwise.discovery.law_objective import FittedLaw
 from slipwise.discovery.matching import name_of
 from slipwise.residual_map.states import WORDS
+from slipwise.short_repr import short_repr
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,7 @@ class LawConstant:
     unit: str
 
 
+@short_repr
 @dataclass(frozen=True)
 class TiedForm:
     """A form that cannot be told apart from the one that was chosen, as it was fitted.
@@ -34,6 +36,7 @@ class TiedForm:
     values: Mapping[str, float]
 
 
+@short_repr
 @dataclass(frozen=True)
 class Law:
     """A law that was found.
@@ -124,6 +127,7 @@ def with_names(text: str, state: str, place: int) -> str:
     return re.sub(r"[A-Za-z_]\w*", name, text)
 
 
+@short_repr
 @dataclass(frozen=True)
 class Origin:
     """Where a law comes from, as its effect file states it.

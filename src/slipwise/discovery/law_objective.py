@@ -20,6 +20,7 @@ from slipwise.relations.parameters import Free
 from slipwise.relations.stages import Inputs, Memo, Stage, make_memo
 from slipwise.relations.table import Residuals
 from slipwise.residual_map.states import DrivingState, PadInstants, derived
+from slipwise.short_repr import short_repr
 from slipwise.signals.filters import LowPass
 from slipwise.signals.pitch import pass_through_pitch
 
@@ -30,6 +31,7 @@ _STRONGEST, _LAG = 30.0, 8.0
 STRENGTH, TIME_CONSTANT, LEVER = "strength", "time_constant", "lever"
 
 
+@short_repr
 @dataclass(frozen=True)
 class PlacedLaw:
     """A matched form where it acts.
@@ -80,6 +82,7 @@ class PlacedLaw:
         return out
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class LawObjective:
     """An objective with laws added.
@@ -196,6 +199,7 @@ def _seen(inputs: Inputs, relation: str, place: int, column: Array) -> Array:
     return divide_by_noise(inputs, relation, place, column, run)
 
 
+@short_repr
 @dataclass(frozen=True)
 class FittedLaw:
     """A law with its constants, everything else free beside it.

@@ -11,6 +11,7 @@ from slipwise.arrays import Array
 from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.form import Constant, Form
 from slipwise.residual_map.states import DrivingState
+from slipwise.short_repr import short_repr
 
 #: Shares of the samples between which a place must lie: beyond, nothing is known of it [1].
 _CENTRAL = (0.02, 0.98)
@@ -26,6 +27,7 @@ _SECOND = "second_"
 _FACTORS = ("linear", "saturation", "decay", "square")
 
 
+@short_repr
 @dataclass(frozen=True)
 class Match:
     """A form for a candidate's curve.

@@ -115,6 +115,7 @@ class Discovery(Drawn, Tabular):
         """Return the answer for a program to read."""
         before, after = self.origin.before, self.origin.after
         return {
+            "schema": 1,
             "campaign": self.campaign,
             "evidence": self.evidence,
             "words": self.sentence,

@@ -67,7 +67,11 @@ def _check_others(effect: Effect, known: Collection[str]) -> None:
 
 
 def base_effects(role: str) -> tuple[Effect, ...]:
-    """Return the effects with a role in the base model: "law", "springs" or "stick"."""
+    """Return the effects with a role in the base model: "law", "springs" or "stick".
+
+    Args:
+        role: "law", "springs" or "stick".
+    """
     return tuple(e for e in catalogue().values() if e.base == role)
 
 
@@ -121,6 +125,9 @@ def _not_imported(path: Path, error: Exception) -> str:
 
 def find_effect(name: str) -> Effect:
     """Look an effect up: of the catalogue by its name, a user's own by the path of its file ("./mine.py").
+
+    Args:
+        name: of the catalogue ("run_in"), or the path of a file ("./mine.py").
 
     Raises:
         UnknownNameError: no such effect.

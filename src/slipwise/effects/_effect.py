@@ -4,34 +4,36 @@ An effect is one file: a docstring with the equation, `Valid:` and `Source:`; on
 names say what they change; and `EFFECT`, what a person and the fit need to know. A hook asks for what it needs by
 the names of its arguments: quantities of `HOOKS`, `memory`, and its own parameters.
 
-Hooks of one instant (plain scalars in, scalars out; compiled into the step and into the loops over records, so only
-arithmetic, `math` and `memory[...]` may be used):
+What most effects need. Hooks of one instant (plain scalars in, scalars out; compiled into the step and into the loops
+over records, so only arithmetic, `math` and `memory[...]` may be used):
 
-    area(real_area, ...) -> real_area          shear(shear, ...) -> shear
-    coefficient(coefficient, ...) -> coefficient of friction, which follows from both and the load
-    stick(bound, ...) -> (force_x, force_y)    pad(...) -> (force_x, force_y)
-    face(face) -> curvature of the sliding face [1/m], on which the girder rises and swings as a pendulum
-    advance(...) -> None, changes memory[...] after the force is known
-    deflection(deflection, ...) -> deflection  spring(force, ...) -> force         settle(...) -> None (buffer's memory)
-    stretch(force, ...) -> stretch of the loading train between gauge and contact, of one slider
-    lift(force_x, force_y, ...) -> force_z (of all shear keys, which share it as they share the horizontal force)
-    drag(...) -> (force_x, force_y)
+    shear(shear, ...) -> shear                 coefficient(coefficient, ...) -> coefficient of friction
+    pad(...) -> (force_x, force_y)             advance(...) -> None, changes memory[...] after the force is known
+    spring(force, ...) -> force (of a buffer)  drag(...) -> (force_x, force_y) on the girder
 
 Hooks of whole arrays (numpy):
 
     rig(specimen, ...) -> Specimen             table(acceleration (n, 4), dt, ...) -> acceleration
     gauge(record, target, ...) -> Record       undo(record, target, ...) -> Record (its inverse, where `gauge` has one)
-    sharpen(record, target, ...) -> Record (its inverse as far as noise bears it, where there is no exact one)
-    disturb(records, specimen) -> forms, each a list of free numbers: what each adds to the balances by which an audit
-                        compares gauges, in every record; see `_disturbances`
+    rest(memory, seconds, ...) -> None         what a pause between runs leaves of the memory
     balance(states, ...) -> {"heave" | "pitch" | "roll" | "warp" | "warp_2" ...: (n,), "girder": (n,)} added to what is
                         predicted
-    rest(memory, seconds, ...) -> None         what a pause between runs leaves of the memory
+    disturb(records, specimen) -> forms, each a list of free numbers: what each adds to the balances by which an audit
+                        compares gauges, in every record; see `_disturbances`
+
+Rare hooks, each of one to three effects of the catalogue or none; a new effect seldom needs one. Of one instant:
+
+    area(real_area, ...) -> real_area          stick(bound, ...) -> (force_x, force_y)
+    face(face) -> curvature of the sliding face [1/m], on which the girder rises and swings as a pendulum
+    deflection(deflection, ...) -> deflection  settle(...) -> None (as `advance`, for a buffer's memory)
+    stretch(force, ...) -> stretch of the loading train between gauge and contact, of one slider
+    lift(force_x, force_y, ...) -> force_z (of all shear keys, which share it as they share the horizontal force)
+
+Of whole arrays:
+
+    sharpen(record, target, ...) -> Record (its inverse as far as noise bears it, where there is no exact one)
     begin(memory, share_x, share_y, bound, ...) -> None    what is remembered where a slider's record begins, by the
                                                share of the bound [1] that its force was then
-
-Hooks that tell what some of its numbers mean:
-
     flat(coefficient, ...) -> {parameter: value}   at which a law over speed is a constant coefficient of friction
     corner(...) -> frequency [Hz]                  of a gauge's filter: it takes what is above
 
@@ -61,40 +63,92 @@ RESPONSE: tuple[str, ...] = (
     "pad_*", "buffer_*", "girder_*", "slip_*", "yaw", "pitch", "roll", "heave",
 )  # fmt: skip
 
+#: The contract of this version. What an effect file of contract 1 says stays possible as long as this is 1.
+CONTRACT = 1
+#: What a field of `Effect` is for -> its names.
+BLOCKS: dict[str, tuple[str, ...]] = {
+    "what it does": (
+        "port",
+        "parameters",
+        "memory",
+        "contract",
+    ),
+    "what a diagnosis needs": (
+        "component",
+        "equation",
+        "moves",
+        "signature",
+        "confused_with",
+        "needs",
+        "steady",
+        "limits",
+    ),
+    "what a fault of a gauge needs": (
+        "target",
+        "fault",
+        "gauges",
+        "shifts",
+        "lag",
+        "plainer",
+        "in_samples",
+        "single",
+    ),
+    "what few effects need": (
+        "exact",
+        "replaces",
+        "adds",
+        "same_unless",
+        "turns",
+        "base",
+        "stands_for",
+    ),
+    "set when the file is read": (
+        "name",
+        "summary",
+        "text",
+        "hooks",
+        "path",
+        "original",
+    ),
+}
+
 
 @dataclass(frozen=True, repr=False)
 class Effect(Drawn, Tabular):
-    """What a person and the fit need to know of an effect.
+    """What a person and the fit need to know of an effect, in blocks: `BLOCKS`.
+
+    A law gives the first two, which are twelve fields; a fault of a gauge the third as well.
 
     Attributes:
         port: where it acts, one of `PORTS`.
+        parameters: with unit, bounds, typical and neutral value, source.
+        memory: names of the numbers it remembers, per pad or per buffer and direction; they start at zero.
+        contract: the contract that the file was written for, `CONTRACT` of that day; 0 where it does not say.
         component: what it belongs to in a verdict, one of `COMPONENTS`.
         equation: in plain text, one line.
-        parameters: with unit, bounds, typical and neutral value, source.
         moves: channels that it may change, e.g. "pad_*_Fx"; `*` stands for any pad or buffer.
         signature: how it shows, in words.
         confused_with: other effects -> the test that tells them apart.
-        memory: names of the numbers it remembers, per pad or per buffer and direction; they start at zero.
+        needs: what a campaign must have to test it, of `NEEDS`; what its component needs is known.
+        steady: for an effect that needs a changing load: what it is one with where the load never changes, in words.
+        limits: ends of its parameters' bounds at which it is another effect, or nothing beside the base model.
         target: "channel" where the effect must be told which channel it acts on, else "".
-        single: whether it may sit on one pad alone, whose load channel is then its target.
         fault: of a gauge's fault: what the audit of the instruments needs to know of it.
+        gauges: on which channels a gauge's fault is looked for.
+        shifts: whether it moves a channel in time as a whole, and its noise with it.
+        lag: for what lets slow signals come late: the parameter that says by how much [s].
+        plainer: for a filter: the effect that it is where its corner lies above all that was recorded.
+        in_samples: for a fault that is found by looking at the samples, and not by a fit: why it cannot be found so
+            where an actuator prescribes the slip.
+        single: whether it may sit on one pad alone, whose load channel is then its target.
         exact: whether geometry leaves no other form of it than this: what it does not explain is then something else.
         replaces: for a law that takes the place of a simpler one: which; such an effect has no neutral value.
         adds: for a law that brings a share of its own: what scales friction as a whole, heat or wear or a patch of the
             plate, scales that share too, whichever was listed first.
-        needs: what a campaign must have to test it, of `NEEDS`; what its component needs is known.
-        steady: for an effect that needs a changing load: what it is one with where the load never changes, in words.
-        limits: ends of its parameters' bounds at which it is another effect, or nothing beside the base model.
         same_unless: other effects that are one thing with it -> what tells them apart where it was measured: "yaw", or
             a balance of the girder ("pitch").
         turns: whether it turns the girder about the vertical, so that yaw belongs to its fit; known of effects with a
             hook that asks for `side` or `side_y`.
-        shifts: whether it moves a channel in time as a whole, and its noise with it.
-        lag: for what lets slow signals come late: the parameter that says by how much [s].
-        plainer: for a filter: the effect that it is where its corner lies above all that was recorded.
-        gauges: on which channels a gauge's fault is looked for.
-        in_samples: for a fault that is found by looking at the samples, and not by a fit: why it cannot be found so
-            where an actuator prescribes the slip.
         base: its role in the base model, of `BASE_ROLES`; springs are never missing by themselves.
         stands_for: numbers of the specimen or the base fit in whose place it comes, e.g. "rig.shear_strength".
         name: the file's name; set when the file is read.
@@ -113,6 +167,7 @@ class Effect(Drawn, Tabular):
     signature: str
     confused_with: Mapping[str, str]
     memory: tuple[str, ...] = ()
+    contract: int = 0
     target: str = ""
     single: bool = False
     fault: GaugeFault | None = None
@@ -180,11 +235,18 @@ class Effect(Drawn, Tabular):
         return tuple(n for n in NEEDS if n in own)
 
     def without(self, need: str) -> str:
-        """Say why it cannot be tested in a campaign that has not what it needs, of `NEEDS`."""
+        """Say why it cannot be tested in a campaign that has not what it needs, of `NEEDS`.
+
+        Args:
+            need: of `NEEDS`.
+        """
         return NEEDS[need].format(steady=self.steady)
 
     def parameter(self, name: str) -> Parameter:
         """Look a parameter up, also one that a pad has of its own: strength[A].
+
+        Args:
+            name: of the parameter, strength or strength[A].
 
         Raises:
             UnknownNameError: no such parameter.
@@ -216,5 +278,10 @@ class Effect(Drawn, Tabular):
 
 
 def moved_channels(effect: Effect, among: Iterable[str] = CHANNELS) -> frozenset[str]:
-    """Return the names of the channels that an effect may change, of those that a record has, or that are listed."""
+    """Return the names of the channels that an effect may change, of those that a record has, or that are listed.
+
+    Args:
+        effect: that may change them.
+        among: names of channels; all that there are if not given.
+    """
     return frozenset(c for c in among if any(fnmatch.fnmatchcase(c, pattern) for pattern in effect.moves))

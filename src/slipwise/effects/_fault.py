@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 
 from slipwise.channels import channel
+from slipwise.short_repr import short_repr
 
 #: Faults that the samples show by themselves.
 SAMPLE_FAULTS: tuple[str, ...] = (
@@ -22,6 +23,7 @@ SAMPLE_FAULTS: tuple[str, ...] = (
 )
 
 
+@short_repr
 @dataclass(frozen=True)
 class GaugeFault:
     """What an audit needs to know of a gauge's fault; its size is the first parameter of the effect.
@@ -49,6 +51,10 @@ class GaugeFault:
     samples: tuple[str, ...] = ()
 
     def least_on(self, name: str) -> float:
-        """Return the least size that matters on a channel; the first word of `least` that fits it counts."""
+        """Return the least size that matters on a channel; the first word of `least` that fits it counts.
+
+        Args:
+            name: of the channel.
+        """
         unit = channel(name).unit
         return next(size for word, size in self.least.items() if word == unit or fnmatchcase(name, word))

@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from slipwise.short_repr import short_repr
+
 #: What a campaign must have for an effect to be tested -> why it cannot be, where that is missing.
 NEEDS: dict[str, str] = {
     "command": "the model is driven by the measured table motion; only the command could show it",
@@ -50,6 +52,7 @@ class Limit:
     becomes: str = ""
 
 
+@short_repr
 @dataclass(frozen=True)
 class Gauges:
     """On which of the channels in `moves` a gauge's fault is looked for.

@@ -12,7 +12,7 @@ from typing import Any, cast
 
 from slipwise.channels import CHANNELS
 from slipwise.effects._contract_check import check_answer, try_instant
-from slipwise.effects._effect import Effect
+from slipwise.effects._effect import CONTRACT, Effect
 from slipwise.effects._fault import SAMPLE_FAULTS
 from slipwise.effects._fields import BASE_ROLES, ENDS, NEEDS, SITS, Limit
 from slipwise.effects._hooks import COMPONENTS, HOOKS, LAGGING, PORTS, SIDES
@@ -43,6 +43,11 @@ def read_effect(module: ModuleType, path: Path) -> Effect:
     for needed, example in _LINES.items():
         if needed not in text:
             raise SettingError(f"{path.name}: add a line to the docstring at the head of the file, such as {example!r}")
+    if found.contract not in range(CONTRACT + 1):
+        raise SettingError(
+            f"{path.name} is written for contract {found.contract!r} of effects, and this Slipwise knows 1 to "
+            f"{CONTRACT}; install a newer one with `pip install --upgrade slipwise`, or give contract={CONTRACT}"
+        )
     _check_declared(path, found)
     if found.port not in PORTS:
         raise unknown_name(f"port (of {path.name})", found.port, PORTS)

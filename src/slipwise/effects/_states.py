@@ -15,8 +15,10 @@ from dataclasses import dataclass
 
 from slipwise.arrays import Array
 from slipwise.rig import Specimen
+from slipwise.short_repr import short_repr
 
 
+@short_repr
 @dataclass(frozen=True)
 class BalanceStates:
     """Measured states of one run.

@@ -13,12 +13,14 @@ from math import isfinite
 from pathlib import Path
 
 from slipwise.effects._catalogue import catalogue
+from slipwise.effects._effect import CONTRACT
 from slipwise.effects._hooks import PORTS
 from slipwise.effects._python_text import WIDTH, paragraph, sentence, words
 from slipwise.effects._written_hook import HOMES, WrittenHook, function_text, names_from_elsewhere
 from slipwise.errors import SettingError, unknown_name
 from slipwise.params import Parameter
 from slipwise.record import write_text
+from slipwise.short_repr import short_repr
 
 _FILE = '''"""{title}
 
@@ -46,6 +48,7 @@ _ALWAYS: dict[str, str] = {
 }  # fmt: skip
 
 
+@short_repr
 @dataclass(frozen=True)
 class WrittenEffect:
     """An effect to be written; what is not said here is as in `Effect`.
@@ -87,6 +90,9 @@ class WrittenEffect:
 
 def effect_text(written: WrittenEffect) -> str:
     """Return the text of an effect's file.
+
+    Args:
+        written: the effect.
 
     Raises:
         UnknownNameError: no such port, or it has no such hook.
@@ -149,6 +155,9 @@ def _check(written: WrittenEffect) -> None:
 def check_name(name: str) -> None:
     """Refuse what cannot be the name of a user's effect.
 
+    Args:
+        name: of the effect to be written.
+
     Raises:
         SettingError: it is no name in Python, that of a module, or one of the catalogue.
     """
@@ -181,6 +190,7 @@ def _is_name(text: str) -> bool:
 def _entries(written: WrittenEffect) -> dict[str, str]:
     """Return what EFFECT says, as Python."""
     entries = {
+        "contract": str(CONTRACT),
         "port": _quoted(written.port),
         "component": _quoted(written.component),
         "equation": _quoted(written.equation),

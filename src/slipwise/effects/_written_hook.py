@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from slipwise.effects._python_text import WIDTH, sentence
 from slipwise.errors import SettingError, unknown_name
+from slipwise.short_repr import short_repr
 
 #: What hooks are given beside numbers, and what they give back beside one number.
 _GIVEN: dict[str, str] = {
@@ -29,6 +30,7 @@ HOMES: Mapping[str, str] = {
 }  # fmt: skip
 
 
+@short_repr
 @dataclass(frozen=True)
 class WrittenHook:
     """One hook of an effect to be written.

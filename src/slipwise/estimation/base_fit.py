@@ -26,6 +26,7 @@ from slipwise.relations.parameters import (
     make_terms,
 )
 from slipwise.relations.run_data import FitRun, fit_runs
+from slipwise.short_repr import short_repr
 
 #: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
 #: promises less than this much of the squared residual. One halfwidth of an interval is worth four [1].
@@ -46,6 +47,7 @@ _BETTER = 0.01
 _MIN_YAW_GAIN = 0.03
 
 
+@short_repr
 @dataclass(frozen=True)
 class BaseFit:
     """What the base model makes of a campaign.

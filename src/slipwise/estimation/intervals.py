@@ -32,6 +32,7 @@ from slipwise.jobs.parallel import on_every_core
 from slipwise.noise.independent_samples import SHORTEST_BLOCK, measure_block_length
 from slipwise.relations.noise import TIMING
 from slipwise.relations.parameters import Free
+from slipwise.short_repr import short_repr
 
 Shared = tuple[Array, NDArray[np.int64]]
 #: Fewer blocks than this many for each free number are no basis; blocks are then made shorter [1].
@@ -73,6 +74,7 @@ class Interval:
         return count_figures(self.low, self.high)
 
 
+@short_repr
 @dataclass(frozen=True)
 class Intervals:
     """All fitted numbers with what ties them together.

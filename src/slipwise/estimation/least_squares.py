@@ -12,6 +12,7 @@ from slipwise.jobs.parallel import on_every_core
 from slipwise.regression.least_squares import Bounds, LevenbergMarquardt, Move, Slopes, step_by_gauss_newton
 from slipwise.relations.parameters import Free
 from slipwise.relations.table import Residuals
+from slipwise.short_repr import short_repr
 
 #: A fit is over when a step promises less than this much of the squared residual [1].
 _ENOUGH = 0.05
@@ -46,6 +47,7 @@ class Fittable(Protocol):
         ...
 
 
+@short_repr
 @dataclass(frozen=True)
 class Solution:
     """What a fit found.

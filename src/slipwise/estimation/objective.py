@@ -24,8 +24,10 @@ from slipwise.relations.stages import Evaluation, Memo, make_memo
 from slipwise.relations.table import Block, Residuals
 from slipwise.relations.weighing import weigh
 from slipwise.rig import Specimen
+from slipwise.short_repr import short_repr
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Objective:
     """A campaign's runs held against a base model with further terms.

@@ -14,8 +14,10 @@ from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Objective
 from slipwise.evidence.left_out import LinearFit, fit_linearly, leave_motions_out
 from slipwise.noise.independent_samples import SHORTEST_BLOCK
+from slipwise.short_repr import short_repr
 
 
+@short_repr
 @dataclass(frozen=True)
 class ResidualSummary:
     """Squared residuals of a solution, by relation.

@@ -9,8 +9,10 @@ from slipwise.effects import Effect
 from slipwise.instruments.level_checks import StoreyAnswer
 from slipwise.preparation.logger import LoggerEstimate
 from slipwise.preparation.sample_fault import SampleFault
+from slipwise.short_repr import short_repr
 
 
+@short_repr
 @dataclass(frozen=True)
 class AuditFinding:
     """One fault of an instrument.

@@ -86,6 +86,10 @@ def as_model(given: Model | Specimen | Path | str) -> Model:
 def save_model(model: Model, path: Path | str) -> None:
     """Write a model; a file that is there keeps its comments, and its order as far as the model has it.
 
+    Args:
+        model: what is written.
+        path: of the file, model.toml.
+
     Raises:
         SettingError: the file is of another rig.
     """

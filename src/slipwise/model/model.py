@@ -208,6 +208,9 @@ class Model(Tabular):
         """Return the effects on these ports: by port; then what replaces, what adds, what scales; then as listed.
 
         Listed behind others a law that replaces would wipe out what they did, and one that adds would escape them.
+
+        Args:
+            *ports: of `PORTS`.
         """
         chosen = [u for port in PORTS if port in ports for u in self.uses if u.effect.port == port]
 
@@ -217,15 +220,26 @@ class Model(Tabular):
         return tuple(sorted(chosen, key=place))
 
     def with_hook(self, hook: str) -> tuple[EffectUse, ...]:
-        """Return the effects that have a hook, in the order of `on_port`."""
+        """Return the effects that have a hook, in the order of `on_port`.
+
+        Args:
+            hook: of `HOOKS`.
+        """
         return tuple(u for u in self.on_port(*PORTS) if hook in u.effect.hooks)
 
     def adding(self, *uses: EffectUse) -> "Model":
-        """Return a model with more effects."""
+        """Return a model with more effects.
+
+        Args:
+            *uses: effects with their values, as `use` gives them.
+        """
         return replace(self, uses=(*self.uses, *uses))
 
     def without(self, *names: str) -> "Model":
         """Return a model without these effects (names or labels).
+
+        Args:
+            *names: of effects, or labels (channel_gain[pad_A_N]).
 
         Raises:
             SettingError: the model does not hold one of them.
@@ -234,7 +248,12 @@ class Model(Tabular):
         return replace(self, uses=tuple(u for u in self.uses if u.label not in gone))
 
     def setting(self, name: str, **values: float | str) -> "Model":
-        """Return a model with other parameter values of one effect, as `use` takes them."""
+        """Return a model with other parameter values of one effect, as `use` takes them.
+
+        Args:
+            name: of the effect.
+            **values: by parameter: a number in SI, or a text with a unit ("20 mm").
+        """
         old = self[name]
         new = replace(use_of(old.effect, {**old.numbers, **_read(old.effect, values)}, old.target), held=old.held)
         return replace(self, uses=tuple(new if u is old else u for u in self.uses))

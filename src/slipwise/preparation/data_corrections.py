@@ -13,6 +13,7 @@ from slipwise.preparation.dead_cells import EstimatedLoad
 from slipwise.preparation.rig_check import WrongRig
 from slipwise.preparation.sample_fault import RAILS, SampleFault
 from slipwise.preparation.wrong_units import WrongUnit
+from slipwise.short_repr import short_repr
 from slipwise.units import convert
 
 #: Kind of a fault of samples -> how it is told; a zero that is far off is gravity, or the weight that cells lack.
@@ -24,6 +25,7 @@ _KINDS = {
 BEFORE_BALANCES: tuple[str, ...] = ("dead", "late", "reversed", "tared", "gravity", "wrong_rig")
 
 
+@short_repr
 @dataclass(frozen=True)
 class DataCorrection:
     """One of them.

@@ -26,6 +26,7 @@ from slipwise.errors import InputError
 from slipwise.estimation.base_fit import fit_roughly
 from slipwise.jobs.parallel import on_every_core
 from slipwise.record import Record
+from slipwise.short_repr import short_repr
 from slipwise.signals.filters import LowPass
 
 #: Below this friction's own shape shows [Hz].
@@ -43,6 +44,7 @@ _LOUDEST = 600.0
 _WIDEST = 0.25
 
 
+@short_repr
 @dataclass(frozen=True)
 class LoggerEstimate:
     """What the data say of the logger's filter.

@@ -3,10 +3,12 @@
 from dataclasses import dataclass
 
 from slipwise.arrays import Mask
+from slipwise.short_repr import short_repr
 
 RAILS: tuple[str, ...] = ("upper rail", "lower rail")
 
 
+@short_repr
 @dataclass(frozen=True)
 class SampleFault:
     """Bad samples of one channel, or of several at the same instants.

@@ -6,8 +6,10 @@ import numpy as np
 
 from slipwise.arrays import Array
 from slipwise.relations.run_data import FitRun, interpolate_finely
+from slipwise.short_repr import short_repr
 
 
+@short_repr
 @dataclass(frozen=True)
 class Instants:
     """States of one run at the instants at which the laws are evaluated: f = fine (n - 1) + 1 for n samples.

@@ -9,6 +9,7 @@ from slipwise.params import Parameter
 from slipwise.rig import Specimen, pad_frequencies
 from slipwise.rig.load_basis import is_uneven
 from slipwise.rig.rocking import rolls
+from slipwise.short_repr import short_repr
 
 #: Largest delay between the cards of a logger that counts as none [s].
 MAX_CARD_DELAY = 1.5e-4
@@ -83,6 +84,7 @@ class Free:
     unit: str
 
 
+@short_repr
 @dataclass(frozen=True)
 class Term:
     """An effect that a hypothesis adds, with the channels on which it acts alike.

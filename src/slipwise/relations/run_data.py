@@ -18,6 +18,7 @@ from slipwise.record import Record
 from slipwise.relations.sample_masks import mask_judged_and_ringing, without_estimated_loads
 from slipwise.rig import Specimen
 from slipwise.rig.frame import storey_channels
+from slipwise.short_repr import short_repr
 from slipwise.signals.ends import in_frequency
 from slipwise.signals.filters import LowPass, lowpass
 from slipwise.signals.shift import shift
@@ -31,6 +32,7 @@ FAST = 0.01
 FINE, FINER = 2, 4
 
 
+@short_repr
 @dataclass(frozen=True)
 class FitRun:
     """One run, ready for the relations of a fit.

@@ -13,12 +13,14 @@ from slipwise.relations.run_data import FitRun
 from slipwise.rig import Specimen, pad_frequencies
 from slipwise.rig.load_basis import basis_of
 from slipwise.rig.load_modes import load_modes
+from slipwise.short_repr import short_repr
 from slipwise.signals.ends import in_frequency
 
 #: Above this frequency, over that at which the girder pitches on its pads, what is left of the pitch load is noise [1].
 _PITCHING = 1.56
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Measurements:
     """A campaign's runs as every evaluation finds them, with what follows from them alone.
@@ -107,6 +109,7 @@ class Measurements:
         return replace(self, runs=tuple(runs))
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Weighing:
     """The noise of every relation, and what the logger's filter took, as some numbers of a fit say.

@@ -13,6 +13,7 @@ from typing import Any, Generic, TypeVar, cast
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import FitRun
 from slipwise.relations.setting import Measurements, Weighing
+from slipwise.short_repr import short_repr
 
 Made = TypeVar("Made")
 #: Kind of a question and what it is about: a number's key, a predicate of terms, an attribute.
@@ -41,6 +42,7 @@ class Stage(Generic[Made]):
     sees: Callable[[Term], bool] = _sees_none
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class _Entry:
     """What a stage made, and what it was made of."""
@@ -49,6 +51,7 @@ class _Entry:
     made: Any
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Memo:
     """What every stage made lately.
@@ -83,6 +86,7 @@ def make_memo(measurements: Measurements) -> Memo:
     return Memo(_KEPT if measurements.samples <= LONG else _KEPT_OF_LONG)
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Evaluation:
     """One evaluation of an objective: everything that its stages may ask for.

@@ -7,8 +7,10 @@ from functools import cached_property
 import numpy as np
 
 from slipwise.arrays import Array, Mask
+from slipwise.short_repr import short_repr
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Block:
     """The residual of one relation in one run.
@@ -63,6 +65,7 @@ class Block:
         return np.broadcast_to(self.sigma, self.value.shape)
 
 
+@short_repr
 @dataclass(frozen=True, eq=False)
 class Residuals:
     """Residuals of every relation in every run that was evaluated, in units of the noise.

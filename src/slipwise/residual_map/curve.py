@@ -15,11 +15,13 @@ from scipy.sparse import csr_array, diags_array
 
 from slipwise.arrays import Array
 from slipwise.residual_map.splines import SplineBasis
+from slipwise.short_repr import short_repr
 
 #: Ridge that keeps places without samples at zero, as a share of the largest diagonal [1].
 _RIDGE = 1e-6
 
 
+@short_repr
 @dataclass(frozen=True)
 class ResidualCurve:
     """A curve over one state, or over two, that a residual asks for.

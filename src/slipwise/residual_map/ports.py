@@ -19,11 +19,13 @@ from slipwise.arrays import Array
 from slipwise.estimation.objective import Objective
 from slipwise.relations.evaluation_times import Instants
 from slipwise.residual_map.states import DrivingState, PadInstants
+from slipwise.short_repr import short_repr
 
 #: Speed [m/s] over which the sign of a girder's motion is smoothed.
 _SLOW = 1e-3
 
 
+@short_repr
 @dataclass(frozen=True)
 class Port:
     """Where a law acts.

@@ -9,8 +9,10 @@ from scipy.interpolate import BSpline
 from scipy.sparse import csr_array
 
 from slipwise.arrays import Array
+from slipwise.short_repr import short_repr
 
 
+@short_repr
 @dataclass(frozen=True)
 class SplineBasis:
     """B-splines over the knots of one state, or the products of those of two.

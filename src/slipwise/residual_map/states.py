@@ -17,6 +17,7 @@ from slipwise.relations.evaluation_times import Instants
 from slipwise.relations.kinematics import CORRECTED, STATES
 from slipwise.relations.pad_stages import LAW_FORCES, LOGGED_FORCES, compute_forces_along
 from slipwise.relations.run_data import FitRun, interpolate_finely
+from slipwise.short_repr import short_repr
 from slipwise.simulation.kernel import derived_states
 from slipwise.simulation.predict import PadForces
 
@@ -45,6 +46,7 @@ WORDS: dict[str, str] = {
 _VARIES = 1e-3
 
 
+@short_repr
 @dataclass(frozen=True)
 class DrivingState:
     """One state over all runs.
@@ -70,6 +72,7 @@ class DrivingState:
         return f"{self.name} ({1e3 * self.time_constant:.3g} ms)" if self.time_constant else self.name
 
 
+@short_repr
 @dataclass(frozen=True)
 class PadInstants:
     """All runs at the instants, as a fit has them.

@@ -16,6 +16,7 @@ from slipwise.errors import SettingError
 from slipwise.rig.mjcf.writer import mjcf_text, storey_names
 from slipwise.rig.specimen import Specimen
 from slipwise.rig.storeys import fixed_base_frequencies
+from slipwise.short_repr import short_repr
 
 #: Impedance of the pads' contacts: constant and low, so that a contact is a spring (see `_pad_contact`).
 _IMPEDANCE = 0.001
@@ -28,6 +29,7 @@ _ARMATURE = 1e10
 TABLE_AXES: tuple[str, ...] = ("ax", "ay", "az", "apitch")
 
 
+@short_repr
 @dataclass(frozen=True)
 class Rig:
     """A compiled specimen.

@@ -9,6 +9,7 @@ from slipwise.errors import SettingError, unknown_name
 from slipwise.rig.load import load_specimen
 from slipwise.rig.similarity import LENGTH_SCALE
 from slipwise.rig.specimen import Specimen
+from slipwise.short_repr import short_repr
 
 #: Plan of the girder model, across and along it [m]. Source: paper, Summary, "a 5 x 3 m girder model".
 PLAN = (5.0, 3.0)
@@ -18,6 +19,7 @@ SLENDERNESS = {"bridge1": 0.122, "bridge2": 0.244}
 PROTOTYPE_STIFFNESS = {"bridge1": 18.5e6, "bridge2": 13.7e6}
 
 
+@short_repr
 @dataclass(frozen=True)
 class Readings:
     """One reading of the paper.

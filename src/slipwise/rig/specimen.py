@@ -12,8 +12,10 @@ from slipwise.rig.changed_parts import PART_VALUES, changed_parts
 from slipwise.rig.places import MOST_PADS, Buffer, Place, check_parts, mean
 from slipwise.rig.similarity import LENGTH_SCALE
 from slipwise.rig.storeys import Storey, check_storeys
+from slipwise.short_repr import short_repr
 
 
+@short_repr
 @dataclass(frozen=True)
 class Specimen:
     """What is known of a rig before it is shaken. All SI; x is the shaking direction, z is up.

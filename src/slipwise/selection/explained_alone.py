@@ -17,11 +17,13 @@ from slipwise.selection.columns import CandidateColumn, compute_raw_columns, lis
 from slipwise.selection.inclusion import SEEN
 from slipwise.selection.statistics import Statistics, compute_left_by_base, compute_statistics
 from slipwise.selection.whole_fits import compute_columns_of_fits, fit_whole
+from slipwise.short_repr import short_repr
 
 #: A column of which base numbers leave a smaller share does what they do [1].
 _NOTHING_LEFT = 1e-9
 
 
+@short_repr
 @dataclass(frozen=True)
 class ExplainedAlone:
     """A candidate by itself.

@@ -12,6 +12,7 @@ from slipwise.estimation.objective import Objective
 from slipwise.evidence.residual_summary import ResidualSummary, summarise_residuals
 from slipwise.relations.parameters import ZERO, Free, Term, list_replaced_numbers, make_free_inertia
 from slipwise.selection.initial_grid import REFERENCES
+from slipwise.short_repr import short_repr
 
 #: A fit is over when a step lowers the squared residual by less than this, and by less than this share of what is left
 #: above the noise [1].
@@ -22,6 +23,7 @@ _FALLS, _POLISHES = 0.05, 3
 STICK_LENGTH = "rig.stick_length"
 
 
+@short_repr
 @dataclass(frozen=True)
 class Hypothesis:
     """Effects that were added to the base model, refitted.

@@ -26,6 +26,7 @@ from slipwise.motion.resample import resample
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import FitRun
 from slipwise.rig.build import largest_step
+from slipwise.short_repr import short_repr
 from slipwise.simulation.kernel.layout import buffer_memories, pad_memories
 from slipwise.simulation.predict import predictor
 from slipwise.simulation.result import Memory
@@ -47,6 +48,7 @@ class Change:
     high: float
 
 
+@short_repr
 @dataclass(frozen=True)
 class Importance:
     """What leaving an effect out changes.

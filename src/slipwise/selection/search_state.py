@@ -14,11 +14,13 @@ from slipwise.selection.hypothesis import Hypothesis, polish, refit
 from slipwise.selection.inclusion import Inclusion
 from slipwise.selection.jacobian_memory import ROOM, complete_jacobian, drop_jacobian, lightened, size_of
 from slipwise.selection.weighed_model import WeighedModel
+from slipwise.short_repr import short_repr
 
 #: Hypotheses of one kind that are fitted to the end.
 _POLISHED = 2
 
 
+@short_repr
 @dataclass(frozen=True)
 class Search:
     """What a selection has looked at; each step gives a new one.

@@ -18,6 +18,7 @@ from slipwise.relations.parameters import Free, make_free_inertia, make_stick_da
 from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.relations.table import Residuals
 from slipwise.session.state import SessionState, Weights
+from slipwise.short_repr import short_repr
 
 #: What a table says of a relation that no sample judges.
 NOT_JUDGED = "not judged"
@@ -25,6 +26,7 @@ NOT_JUDGED = "not judged"
 _READY = 6
 
 
+@short_repr
 @dataclass(frozen=True)
 class BalanceError:
     """Error of one relation.

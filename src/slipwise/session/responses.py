@@ -13,6 +13,7 @@ from slipwise.record import Record
 from slipwise.selection.importance import compute_memory_before
 from slipwise.session.evaluation import Evaluator
 from slipwise.session.state import SessionState
+from slipwise.short_repr import short_repr
 from slipwise.simulation.replay import replay
 
 #: What is read off -> SI unit; of a measurement also, but for the time that no pad's cell can tell.
@@ -21,6 +22,7 @@ RESPONSES: dict[str, str] = {"peak_slip": "m", "energy": "J", "largest_load": "N
 _SEED = 1
 
 
+@short_repr
 @dataclass(frozen=True)
 class RunReplay:
     """A run driven by the table's measured motion alone.

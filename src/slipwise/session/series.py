@@ -11,11 +11,13 @@ from slipwise.relations.girder_stages import compute_balance_sides
 from slipwise.relations.table import Residuals
 from slipwise.rig.load_basis import WARPS
 from slipwise.session.state import SessionState
+from slipwise.short_repr import short_repr
 
 #: Balances whose two sides are channels; of the others only the residual has a meaning, in floors.
 _TWO_SIDED = ("girder", "heave", "pitch", "roll", *WARPS, "storeys")
 
 
+@short_repr
 @dataclass(frozen=True)
 class Series:
     """One balance in one run.

@@ -131,12 +131,21 @@ class Session(Drawn, Tabular):
         return self.push(changes.with_number(self.ready, self.state, key, value), keep=keep)
 
     def errors(self, state: SessionState | None = None) -> tuple[BalanceError, ...]:
-        """Return the error of every balance, component level, in floors: of the model as it is now, or of a state."""
+        """Return the error of every balance, component level, in floors: of the model as it is now, or of a state.
+
+        Args:
+            state: of this session; the model as it is now if not given.
+        """
         state = state or self.state
         return errors_of(self.ready.objective(state), self.ready.residuals(state))
 
     def series(self, run: str, relation: str = "pads", state: SessionState | None = None) -> Series:
         """Return one balance of one run, measured and predicted: of the model as it is now, or of a state.
+
+        Args:
+            run: name of the run.
+            relation: name of the balance.
+            state: of this session; the model as it is now if not given.
 
         Raises:
             SettingError: no such run or balance.
@@ -165,21 +174,37 @@ class Session(Drawn, Tabular):
         """Take over a state that a fit has found, here or in another process.
 
         The first fit of the model as it was opened is what others are held against.
+
+        Args:
+            state: that the fit has found.
         """
         if not self.reference.fitted and state.terms == self.reference.terms:
             self.reference, self.accepted = state, False
         return self.push(state)
 
     def replay(self, state: SessionState | None = None, run: str = "") -> RunReplay:
-        """Replay a run, the held-out one if none is named, from the table's motion; see `replay_run`."""
+        """Replay a run, the held-out one if none is named, from the table's motion; see `replay_run`.
+
+        Args:
+            state: of this session; the model as it is now if not given.
+            run: name of the run; the held-out one if not given.
+        """
         return replay_run(self.ready, state or self.state, run)
 
     def replay_errors(self, state: SessionState | None = None) -> dict[str, float]:
-        """Return the held-out errors at system level in floors; see `responses.replay_errors`."""
+        """Return the held-out errors at system level in floors; see `responses.replay_errors`.
+
+        Args:
+            state: of this session; the model as it is now if not given.
+        """
         return replay_errors(self.ready, state or self.state)
 
     def explain(self, progress: Progress | None = None) -> Diagnosis:
-        """Say which effect the model lacks, as it is now; `take_suggestion` puts it in."""
+        """Say which effect the model lacks, as it is now; `take_suggestion` puts it in.
+
+        Args:
+            progress: is told what is being done, and the share that is done [1].
+        """
         found = diagnose_with_law(self.ready.prepared, self.model, progress=progress)
         self.remember("explain", explained(found, self.state.labels))
         return found
@@ -196,7 +221,12 @@ class Session(Drawn, Tabular):
         return found
 
     def remember(self, kind: str, content: Mapping[str, Any]) -> None:
-        """Keep a finding, made here or in another process."""
+        """Keep a finding, made here or in another process.
+
+        Args:
+            kind: what was found, as the session's file names it.
+            content: of the finding, as JSON can hold it.
+        """
         self.findings[kind] = dict(content)
         self.keep()
 
@@ -238,6 +268,9 @@ class Session(Drawn, Tabular):
     def beside(self, other: "Session | Model | Path | str") -> SessionState:
         """Return another model as a state of this session, judged by the same noise.
 
+        Args:
+            other: a model, of the same rig.
+
         Raises:
             SlipwiseError: a file that cannot be read, or effects that cannot act together.
         """
@@ -245,7 +278,11 @@ class Session(Drawn, Tabular):
         return changes.as_stated(self.ready, self.state, self._sources.bounded(model))
 
     def compare_with(self, other: "Session | Model | Path | str") -> list[dict[str, Any]]:
-        """Hold another model, as stated, against the same runs: a row for each balance, in floors; None: not judged."""
+        """Hold another model, as stated, against the same runs: a row for each balance, in floors; None: not judged.
+
+        Args:
+            other: a model, of the same rig.
+        """
         there = {e.relation: e for e in self.errors(self.beside(other))}
         return [
             {"balance": e.name, "this model": e.error, "the other": there[e.relation].error}
@@ -259,12 +296,21 @@ class Session(Drawn, Tabular):
             self.store.close()
 
     def effect(self, name: str) -> Effect:
-        """Return an effect of the model with its bounds there, which hold what was stated; or another."""
+        """Return an effect of the model with its bounds there, which hold what was stated; or another.
+
+        Args:
+            name: of the effect, or the path of its file.
+        """
         held = next((u.effect for u in self.ready.model.uses if u.effect.name == name), None)
         return held or self._sources.effect(name)
 
     def read_state(self, content: Mapping[str, Any], trust: Trust) -> SessionState:
-        """Return a state that another process of the same user has written, and whose effect files it runs already."""
+        """Return a state that another process of the same user has written, and whose effect files it runs already.
+
+        Args:
+            content: as the session's file holds a state.
+            trust: which effect files may be run.
+        """
         sources = replace(self._sources, trust=trust)
         return from_json(content, lambda name: self._kept_effect(name, sources))
 
@@ -272,7 +318,12 @@ class Session(Drawn, Tabular):
         return self.effect(name) if name in catalogue() else (sources or self._sources).kept_effect(name)
 
     def push(self, state: SessionState, *, keep: bool = True) -> SessionState:
-        """Take a state as the next step."""
+        """Take a state as the next step.
+
+        Args:
+            state: of this session.
+            keep: whether it is written to disk at once.
+        """
         self.history = self.history.pushed(state)
         if keep:
             self.keep()

@@ -6,11 +6,13 @@ from typing import Any
 
 from slipwise.effects import Effect, catalogue
 from slipwise.relations.parameters import Term
+from slipwise.short_repr import short_repr
 
 #: Name or file of an effect -> the effect, with the bounds that it has in this campaign.
 EffectOf = Callable[[str], Effect]
 
 
+@short_repr
 @dataclass(frozen=True)
 class Weights:
     """The model by which noise was weighed: errors in floors compare only where this is the same, or each its own.
@@ -47,6 +49,7 @@ class Known:
     limit: str
 
 
+@short_repr
 @dataclass(frozen=True)
 class SessionState:
     """One step of a session.

@@ -25,6 +25,7 @@ from slipwise.errors import InputError, SettingError, SlipwiseWarning
 from slipwise.model import Model, base_model
 from slipwise.motion import TableMotion, resample, scale_time
 from slipwise.rig import LENGTH_SCALE
+from slipwise.short_repr import short_repr
 from slipwise.simulation.kernel import fill, kernel
 
 #: Step of the analysis, in the model's time [s]: that of a replay, so that nothing is resampled afterwards.
@@ -56,6 +57,7 @@ class Pier:
             )
 
 
+@short_repr
 @dataclass(frozen=True)
 class BridgeSettings:
     """How the prototype is modelled.

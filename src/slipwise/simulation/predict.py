@@ -12,10 +12,12 @@ import numpy as np
 from slipwise.arrays import Array
 from slipwise.effects import RIG_MOTION, Effect, catalogue
 from slipwise.model import Model
+from slipwise.short_repr import short_repr
 from slipwise.simulation.kernel import Kernel, apply_rest, begin_memory, engine_for, fill, kernel, places
 from slipwise.simulation.kernel.layout import pad_blocks
 
 
+@short_repr
 @dataclass(frozen=True)
 class PadForces:
     """What the pads' laws answer to measured states.

@@ -10,6 +10,7 @@ from slipwise.display import Drawn
 from slipwise.errors import SimulationError
 from slipwise.motion.table_motion import Steady, TableMotion
 from slipwise.record import Record
+from slipwise.short_repr import short_repr
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -30,6 +31,7 @@ class SimulationDiverged(SimulationError):
         return type(self), (str(self), self.replay)
 
 
+@short_repr
 @dataclass(frozen=True)
 class Memory:
     """What pads and buffers remember at the end of a run, for the run that follows.
@@ -85,7 +87,11 @@ class Replay(Drawn):
     computing: float
 
     def summary(self, motion: TableMotion) -> dict[str, Any]:
-        """Return the numbers of summary.json; `motion` is what was replayed."""
+        """Return the numbers of summary.json; `motion` is what was replayed.
+
+        Args:
+            motion: what was replayed.
+        """
         pads = {
             pad: {
                 "N_min_kN": self.load_range[pad][0] / 1e3,

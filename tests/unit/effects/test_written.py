@@ -13,7 +13,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from driven import answers, arrays, bridge, motion, with_effect
 from shaking import shaken, sine
 from slipwise.effects import (
     DERIVED,
@@ -31,6 +30,7 @@ from slipwise.effects import (
 from slipwise.errors import OutputError, SettingError, UnknownNameError
 from slipwise.params import Parameter
 from slipwise.simulation.kernel import engine_for
+from slipwise.testing.driven import answers, arrays, bridge, motion, with_effect
 from slipwise.view.words.effects import effect_rows
 
 ROOT = Path(__file__).parents[3]

@@ -8,8 +8,10 @@ from slipwise.errors import unknown_name
 from slipwise.motion.synthetic import multisine, quake, sine, triangle
 from slipwise.motion.synthetic.spec import Spec, parse_spec
 from slipwise.motion.table_motion import TableMotion
+from slipwise.short_repr import short_repr
 
 
+@short_repr
 @dataclass(frozen=True)
 class SyntheticMotion:
     """One kind of synthetic motion, as `slipwise motions` prints it.

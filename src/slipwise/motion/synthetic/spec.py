@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.errors import InputError, UnitError, unknown_name
+from slipwise.short_repr import short_repr
 from slipwise.units import quantity
 
 #: A motion is sampled at this step [s]: the step of a replay, so that nothing is resampled by default.
@@ -22,6 +23,7 @@ _LONGEST = 3600.0
 _LARGEST = 1000.0
 
 
+@short_repr
 @dataclass(frozen=True)
 class Spec:
     """A synthetic motion as written.

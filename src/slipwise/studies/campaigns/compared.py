@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import hypot
 
+from slipwise.short_repr import short_repr
 from slipwise.studies.campaigns.outcome import Outcome, standard_error
 
 #: A number has changed when it differs by this many standard errors: of the thirty or so numbers of two campaigns, less
@@ -11,6 +12,7 @@ from slipwise.studies.campaigns.outcome import Outcome, standard_error
 CHANGED = 3.0
 
 
+@short_repr
 @dataclass(frozen=True)
 class EffectDifference:
     """An effect that not all campaigns have.
@@ -52,6 +54,7 @@ class ValueChange:
         return self.errors is not None and self.errors >= CHANGED
 
 
+@short_repr
 @dataclass(frozen=True)
 class Compared:
     """What many campaigns say together.

@@ -8,6 +8,7 @@ from scipy.stats import norm
 
 from slipwise.diagnosis.result import Diagnosis, written
 from slipwise.estimation.intervals import COVERAGE, compute_intervals
+from slipwise.short_repr import short_repr
 
 #: Of diagnosis.json.
 _KEPT = (
@@ -18,6 +19,7 @@ _KEPT = (
 _REACH = float(norm.ppf(0.5 + COVERAGE / 2))
 
 
+@short_repr
 @dataclass(frozen=True)
 class Outcome:
     """One campaign of many.

@@ -13,11 +13,13 @@ from typing import Any
 from slipwise.diagnosis.indistinguishable import list_alike_pairs
 from slipwise.effects import base_effects, catalogue
 from slipwise.errors import InputError
+from slipwise.short_repr import short_repr
 from slipwise.studies.campaigns.outcome import Outcome
 
 _UNKNOWN = ["unknown"]
 
 
+@short_repr
 @dataclass(frozen=True)
 class Scored:
     """One campaign with its answer.

@@ -14,6 +14,7 @@ from slipwise.model import Model, base_model, use
 from slipwise.model.file import load_model
 from slipwise.motion import TableMotion, load_motion, scale
 from slipwise.rig.files import find_rig
+from slipwise.short_repr import short_repr
 from slipwise.simulation.replay import replay
 from slipwise.simulation.simulator import Replay
 from slipwise.studies.ensemble.distributions import with_values
@@ -22,6 +23,7 @@ from slipwise.studies.members import key_of, numbers_or_failure
 LAWS = ("paper", "coulomb")
 
 
+@short_repr
 @dataclass(frozen=True)
 class Base:
     """What all members share; words only, so that any process can make the model of it.
@@ -55,6 +57,7 @@ class Base:
         return key_of([self.law, contents], __name__)
 
 
+@short_repr
 @dataclass(frozen=True)
 class FileBase:
     """What all members share, as a model.toml: any process that sees the file can make the model of it.

@@ -4,6 +4,7 @@ import re
 from dataclasses import dataclass
 
 from slipwise.errors import SettingError, unknown_name
+from slipwise.short_repr import short_repr
 from slipwise.units import quantity
 
 
@@ -36,6 +37,7 @@ RESPONSES: tuple[Response, ...] = (
 )
 
 
+@short_repr
 @dataclass(frozen=True)
 class Limit:
     """A value that a response may exceed.

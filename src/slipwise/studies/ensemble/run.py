@@ -13,6 +13,7 @@ from slipwise.jobs.executors import run_all
 from slipwise.jobs.job_log import Finished
 from slipwise.motion import TableMotion, load_motion
 from slipwise.motion.load import is_description
+from slipwise.short_repr import short_repr
 from slipwise.studies.ensemble.distributions import Varied, check_sampling, draw, read_varied
 from slipwise.studies.ensemble.member import Base, Shaken, member_key, motion_key, run_shaken
 from slipwise.studies.ensemble.members_file import write_members
@@ -21,6 +22,7 @@ from slipwise.studies.ensemble.scales import read_scales
 from slipwise.studies.ensemble.tables import Exceedance, Quantiles, tables_of
 
 
+@short_repr
 @dataclass(frozen=True)
 class Ensemble:
     """What came out.

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from slipwise.short_repr import short_repr
 from slipwise.studies.ensemble.members_file import responses_of
 from slipwise.studies.ensemble.responses import RESPONSES, Limit, Response
 
@@ -13,6 +14,7 @@ from slipwise.studies.ensemble.responses import RESPONSES, Limit, Response
 QUANTILES = (5, 16, 50, 84, 95)
 
 
+@short_repr
 @dataclass(frozen=True)
 class Quantiles:
     """One response to one motion at one scale.
@@ -34,6 +36,7 @@ class Quantiles:
     values: tuple[float, ...]
 
 
+@short_repr
 @dataclass(frozen=True)
 class Exceedance:
     """How often a limit was exceeded by one motion at one scale: over, of members that finished; failed beside them."""

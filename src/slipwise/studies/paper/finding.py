@@ -5,11 +5,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from slipwise.errors import SettingError
+from slipwise.short_repr import short_repr
 
 HOLDS, LIMITS, FAILS, UNCHECKED = "holds", "holds with limits", "does not hold", "cannot be checked"
 VERDICTS = (HOLDS, LIMITS, FAILS, UNCHECKED)
 
 
+@short_repr
 @dataclass(frozen=True)
 class Finding:
     """One statement of the paper and what became of it.
@@ -40,6 +42,7 @@ class Finding:
             raise SettingError(f"{self.verdict!r} is no verdict; possible: {', '.join(VERDICTS)}")
 
 
+@short_repr
 @dataclass(frozen=True)
 class Study:
     """One section of the paper, re-enacted.

@@ -15,6 +15,7 @@ from slipwise.jobs.executors import run_all
 from slipwise.jobs.job_log import Numbers
 from slipwise.model import Model, use
 from slipwise.motion import TableMotion, load_motion
+from slipwise.short_repr import short_repr
 from slipwise.simulation.replay import replay
 from slipwise.simulation.simulator import Replay
 from slipwise.studies.members import key_of, numbers_or_failure
@@ -25,6 +26,7 @@ from slipwise.studies.paper.settings import PaperSettings, paper_model
 _CLOSE, _TRIES = 5e-4, 12
 
 
+@short_repr
 @dataclass(frozen=True)
 class Member:
     """One replay.

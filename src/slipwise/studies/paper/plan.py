@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from slipwise.short_repr import short_repr
 from slipwise.studies.paper.member import Member
 from slipwise.studies.paper.settings import PaperSettings
 
@@ -25,6 +26,7 @@ LATER: Mapping[str, tuple[str, ...]] = {
 }
 
 
+@short_repr
 @dataclass(frozen=True)
 class Plan:
     """Groups of replays by name, all in one list."""

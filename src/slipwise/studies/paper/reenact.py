@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from slipwise.motion import TableMotion
+from slipwise.short_repr import short_repr
 from slipwise.studies.paper import beyond, claims, extreme, factors, hysteresis, law, scaling, sine_tests, table_input
 from slipwise.studies.paper.finding import VERDICTS, Study
 from slipwise.studies.paper.member import run_ensemble
@@ -20,6 +21,7 @@ from slipwise.studies.paper.settings import SETTINGS, PaperSettings
 _ENSEMBLE_SHARE = 0.85
 
 
+@short_repr
 @dataclass(frozen=True)
 class Reenactment:
     """What came out.

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, fields, replace
 from slipwise.errors import SettingError, unknown_name
 from slipwise.model import Model, base_model
 from slipwise.rig import Readings, read_paper
+from slipwise.short_repr import short_repr
 from slipwise.simulation.pier import BridgeSettings, Pier
 from slipwise.units import quantity
 
@@ -70,6 +71,7 @@ _BY_NAME = {s.name: s for s in SETTINGS}
 _READINGS = tuple(f.name for f in fields(Readings))
 
 
+@short_repr
 @dataclass(frozen=True)
 class PaperSettings:
     """Everything that the study depends on besides the paper; `SETTINGS` says what each is and why.

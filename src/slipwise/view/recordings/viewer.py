@@ -6,6 +6,7 @@ from pathlib import Path
 
 from slipwise.errors import InputError, SlipwiseError
 from slipwise.jobs.child_processes import on_a_safe_path
+from slipwise.view.recordings import WITHOUT_RERUN, is_rerun_installed
 
 #: The viewer's own default is every interface of the machine.
 _LOOPBACK = "127.0.0.1"
@@ -42,10 +43,12 @@ def open_viewer(place: Path) -> None:
         place: a folder with a recording, or the .rrd file.
 
     Raises:
-        InputError: no .rrd file there.
+        InputError: no .rrd file there, or rerun is not installed.
         SlipwiseError: the viewer could not run, for example without a display.
     """
     recording = find_recording(place)
+    if not is_rerun_installed():
+        raise InputError(f"{recording} cannot be shown: {WITHOUT_RERUN}")
     with on_a_safe_path():
         viewer = subprocess.Popen(viewer_command(recording))
     try:

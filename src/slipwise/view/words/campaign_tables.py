@@ -46,8 +46,12 @@ def score_rows(scored: Sequence[Scored]) -> list[dict[str, Any]]:
         if one.outcome.failed:
             rows.append({**row, "verdict": "failed, see below"})
             continue
-        row |= {"verdict": said["verdict"], "effects": " + ".join(said["effects"])}
-        rows.append({**row, "probability": said["probability"], **_fall(said), "time [s]": round(said["seconds"])})
+        row |= {
+            "verdict": _verdict(said),
+            "probability": said["probability"],
+            "error": " to ".join(_fall(said).values()),
+        }
+        rows.append({**row, "time [s]": round(said["seconds"])})
     return rows
 
 
@@ -124,15 +128,19 @@ def _row(outcome: Outcome) -> dict[str, Any]:
     said = outcome.numbers
     if outcome.failed:
         return {"campaign": outcome.name, "verdict": "failed, see below"}
-    named = (" or " if said["verdict"] == "ambiguous" else " + ").join(said["effects"])
     sizes = [
         size_words(key, entry)
         for key, entry in outcome.sizes.items()
         if key.partition(".")[0].partition("[")[0] in said["effects"]
     ]
-    verdict = f"{said['verdict']}: {named}" if named else said["verdict"]
-    row = {"campaign": outcome.name, "verdict": verdict, "sizes (95 % interval)": "; ".join(sizes)}
+    row = {"campaign": outcome.name, "verdict": _verdict(said), "sizes (95 % interval)": "; ".join(sizes)}
     return {**row, "probability": said["probability"], **_fall(said)}
+
+
+def _verdict(said: Mapping[str, Any]) -> str:
+    """Write the kind of a verdict, and what it names."""
+    named = (" or " if said["verdict"] == "ambiguous" else " + ").join(said["effects"])
+    return f"{said['verdict']}: {named}" if named else said["verdict"]
 
 
 def _fall(said: Mapping[str, Any]) -> dict[str, str]:

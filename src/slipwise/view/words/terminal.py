@@ -1,5 +1,6 @@
 """Tables in the terminal."""
 
+import textwrap
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -32,8 +33,8 @@ _SUMMARY: tuple[tuple[str, str, str], ...] = (
     ("draw_s", "time to draw pictures and recording", "s"),
     ("engine", "engine", ""),
 )
-#: Letters of a row's name that are kept in one line at most.
-_NAME = 24
+#: Characters between two columns of a table.
+_BETWEEN = 3
 _AFTER_LANDING = (
     "Pads lifted: what follows several landings hangs on the last digits of the motion, and the largest loads hang on "
     "the pads' damping, which is assumed. Compare motions that differ by less than the table's accuracy."
@@ -53,25 +54,68 @@ _PAD: tuple[tuple[str, str], ...] = (
 def print_table(title: str, rows: Sequence[Mapping[str, Any]], console: Console | None = None) -> None:
     """Print rows as a table; a column is every key that a row has, numbers stand to the right.
 
+    No word is broken, so that a name can be typed again: where the terminal is too narrow for that, every row is a
+    block of lines.
+
     Args:
         title: above the table.
         rows: one mapping a row; a key that a row lacks leaves its cell empty.
         console: where to print; the standard output if not given.
     """
-    columns = list(dict.fromkeys(key for row in rows for key in row))
-    table = Table(box=box.SIMPLE_HEAD, header_style="bold")
-    for key in columns:
-        numeric = all(isinstance(row.get(key), int | float) for row in rows if row.get(key) is not None)
-        # A name that the user types again must not be broken: the column that says whose row it is gets its room first.
-        room = min(max(len(cell(row.get(key))) for row in rows), _NAME) if rows and key == columns[0] else None
-        heading, side = Text(visible(str(key))), "right" if numeric else "left"
-        table.add_column(heading, justify=side, overflow="fold", min_width=room)
-    for row in rows:
-        # Text, so that brackets in names and units are printed and not taken for markup.
-        table.add_row(*(Text(cell(row.get(key))) for key in columns))
     console = console or PatientConsole()
     console.print(Text(visible(title), style="bold"))  # a table's own title is broken at the table's width
+    columns = list(dict.fromkeys(key for row in rows for key in row))
+    texts = [[visible(str(key)), *(cell(row.get(key)) for row in rows)] for key in columns]
+    widths = _widths(texts, console.width)
+    if widths is None:
+        _print_blocks(texts, console)
+        return
+    table = Table(box=box.SIMPLE_HEAD, header_style="bold")
+    for key, column, width in zip(columns, texts, widths, strict=True):
+        numeric = all(isinstance(row.get(key), int | float) for row in rows if row.get(key) is not None)
+        # Text, so that brackets in names and units are printed and not taken for markup.
+        table.add_column(Text(column[0]), justify="right" if numeric else "left", overflow="fold", width=width)
+    for row in zip(*(column[1:] for column in texts), strict=True):
+        table.add_row(*map(Text, row))
     console.print(table)
+
+
+def _widths(texts: Sequence[Sequence[str]], room: int) -> list[int] | None:
+    """Return how wide each column is where no word is broken, or None where the terminal is too narrow for that.
+
+    Args:
+        texts: heading and cells of each column.
+        room: characters of a line.
+    """
+    least = [max(len(word) for text in column for word in text.split() or [""]) for column in texts]
+    most = [max(map(len, column)) for column in texts]
+    left = room - sum(least) - _BETWEEN * len(texts) - 1
+    if left < 0:
+        return None
+    wanted = [high - low for high, low in zip(most, least, strict=True)]
+    share = min(1.0, left / sum(wanted)) if any(wanted) else 0.0
+    widths = [low + int(share * more) for low, more in zip(least, wanted, strict=True)]
+    for place in sorted(range(len(widths)), key=lambda at: widths[at] - most[at])[: left - sum(widths) + sum(least)]:
+        widths[place] += widths[place] < most[place]  # what rounding down has left
+    return widths
+
+
+def _print_blocks(texts: Sequence[Sequence[str]], console: Console) -> None:
+    """Print a block for every row: its first cell, and below it the others, each behind its heading."""
+    heads, *rows = zip(*texts, strict=True)
+    for first, *others in rows:
+        console.print()
+        console.print(Text(f"  {first}", style="bold"), soft_wrap=True)
+        for head, text in zip(heads[1:], others, strict=True):
+            if text:
+                # a longer word is left whole: whoever copies it gets it in one piece
+                lines = textwrap.wrap(
+                    f"{head}: {text}", console.width - 1, initial_indent=" " * 4, subsequent_indent=" " * 6,
+                    break_long_words=False, break_on_hyphens=False,
+                )  # fmt: skip
+                for line in lines:
+                    console.print(Text(line), soft_wrap=True)
+    console.print()
 
 
 def print_summary(summary: Mapping[str, Any], console: Console | None = None) -> None:

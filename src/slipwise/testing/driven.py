@@ -17,6 +17,7 @@ TARGET = "pad_A_Fx"
 
 @cache
 def bridge() -> Model:
+    """Return Bridge 1 with the paper's law."""
     return base_model("bridge1")
 
 
@@ -60,6 +61,7 @@ def motion(dt: float = 0.002, seconds: float = 1.5) -> dict[str, np.ndarray]:
 
 
 def states(model: Model, moving: dict[str, np.ndarray], pads: np.ndarray, buffers: np.ndarray) -> BalanceStates:
+    """Return what a hook `balance` is given: states, forces of pads (n, 4, 2) and buffers (n, 2, 2) [N]."""
     return BalanceStates(
         time=moving["time"],
         specimen=model.specimen,
@@ -76,6 +78,7 @@ def states(model: Model, moving: dict[str, np.ndarray], pads: np.ndarray, buffer
 
 
 def record(moving: dict[str, np.ndarray], pads: np.ndarray) -> Record:
+    """Return the channels that gauges would have recorded, with forces of the pads (n, 4, 2) [N]."""
     channels = {f"pad_{p}_N": moving["load"][:, i] for i, p in enumerate("ABCD")}
     channels |= {f"pad_{p}_F{a}": pads[:, i, j] for i, p in enumerate("ABCD") for j, a in enumerate("xy")}
     channels |= {f"table_a{a}": moving["table"][:, i] for i, a in enumerate("xyz")}
