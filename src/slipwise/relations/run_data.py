@@ -11,11 +11,14 @@ from slipwise.campaign import Campaign, Run
 from slipwise.campaign.invalid_samples import InvalidSamples, add_wild_samples
 from slipwise.campaign.scales import Scales
 from slipwise.campaign.states import States, measured_states
-from slipwise.channels import VELOCITY_CHANNELS
 from slipwise.errors import InputError
 from slipwise.jobs.machine_code import kept
 from slipwise.record import Record
-from slipwise.relations.sample_masks import mask_judged_and_ringing, without_estimated_loads
+from slipwise.relations.sample_masks import (
+    mask_balances_of_inertia,
+    mask_judged_and_ringing,
+    without_estimated_loads,
+)
 from slipwise.rig import Specimen
 from slipwise.rig.frame import storey_channels
 from slipwise.short_repr import short_repr
@@ -273,19 +276,27 @@ def _fit_run(run: Run, campaign: Campaign, invalid: Mapping[str, Mask]) -> FitRu
     fast = np.hypot(*states.velocity.T) > FAST * states.scales.speed
     # samples were looked at as recorded; a gap of theirs is filled on the axis of the states
     bad = {c: np.interp(states.time, run.record.time, m.astype(float)) > 0.0 for c, m in invalid.items()}
-    told = sliding | (not campaign.specimen.slides)
     kept, ringing = mask_judged_and_ringing(states, grounded, sliding, fast, pads, bad)
-    if not forces_measured:  # while pads stick a law does not say what they carry together
-        kept["girder"] = kept["girder"] & told
-        across_needed = ("girder_ay", *storey_channels(campaign.specimen.storeys, "y"))
-        if states.has_y and states.record.has_all(*across_needed):
-            bad_across = [mask for name, mask in bad.items() if name in (*across_needed, "slip_y", *VELOCITY_CHANNELS)]
-            told = told & (fast | (not campaign.specimen.slides))
-            kept["girder_y"] = told & grounded & ~np.any([np.zeros(len(told), dtype=bool), *bad_across], axis=0)
+    if not forces_measured:
+        _refuse_dead(run.file, inertia, bad)
+        kept |= mask_balances_of_inertia(states, grounded, sliding, fast, bad)
     kept = without_estimated_loads(kept) if run.estimated else kept
     unseen = campaign.logger.unseen(shows_force)
     more = {"unseen": unseen, "ringing": ringing, "forces_measured": forces_measured}
     return FitRun(run.name, run.role, rest, states, filtered, pads, load, force, across, sliding, kept, bad, **more)
+
+
+def _refuse_dead(file: str, inertia: tuple[str, ...], bad: Mapping[str, Mask]) -> None:
+    """Refuse a run in which an acceleration shows nothing without which nobody knows what the bearings carry.
+
+    Raises:
+        InputError: the message names it.
+    """
+    if dead := [name for name in inertia if name in bad and bad[name].all()]:
+        raise InputError(
+            f"{file}: {', '.join(dead)} shows nothing, and without it the force of all bearings does not follow from "
+            "inertia where no pad's friction was measured; leave this run out, or map a gauge that works to it"
+        )
 
 
 def _inertia_channels(specimen: Specimen) -> tuple[str, ...]:

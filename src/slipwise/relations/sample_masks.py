@@ -12,6 +12,7 @@ from slipwise.channels import VELOCITY_CHANNELS
 from slipwise.noise.gauges import find_rest_before_motion
 from slipwise.record import Record
 from slipwise.rig import Specimen, pad_frequencies
+from slipwise.rig.frame import storey_channels
 from slipwise.rig.load_basis import WARPS
 from slipwise.rig.rocking import coupled
 
@@ -53,6 +54,36 @@ def mask_judged_and_ringing(
     kept = without_uplift(kept, ringing, states.uplift, states.dt)
     kept["roll"] = kept["roll"] & is_roll_known(states.record, states.has_y, states.specimen)
     return kept, ringing
+
+
+def mask_balances_of_inertia(
+    states: States, grounded: Mask, sliding: Mask, fast: Mask, invalid: Mapping[str, Mask]
+) -> dict[str, Mask]:
+    """Return the samples by which the balances along x and y are judged where no pad's friction was measured.
+
+    While pads stick the law does not say what they carry together. Along y there is one where all that it is made of
+    was measured.
+
+    Args:
+        states: of the run.
+        grounded: as of `make_sample_masks`, like what follows.
+        sliding: (n,).
+        fast: (n,).
+        invalid: channel -> (n,).
+    """
+    slides, storeys = states.specimen.slides, states.specimen.storeys
+    along = (*storey_channels(storeys), *VELOCITY_CHANNELS)
+    across = ("girder_ay", *storey_channels(storeys, "y"))
+
+    def valid(*names: str) -> Mask:
+        bad = [invalid[name] for name in names if name in invalid]
+        return ~np.any(bad, axis=0) if bad else np.ones(len(grounded), dtype=bool)
+
+    out = {"girder": grounded & (sliding | (not slides)) & valid(*along)}
+    if states.has_y and states.record.has_all(*across):
+        told = (sliding & fast) | (not slides)
+        out["girder_y"] = grounded & told & valid(*across, "slip_y", *VELOCITY_CHANNELS)
+    return out
 
 
 def make_sample_masks(

@@ -100,6 +100,13 @@ def test_without_an_acceleration_of_all_that_is_carried_the_message_names_it(bar
         measured_states(run, framed)
 
 
+def test_a_dead_accelerometer_of_what_is_carried_is_named(bare: Campaign) -> None:
+    run = bare.runs[0]
+    every = np.ones(len(run.record), dtype=bool)
+    with pytest.raises(InputError, match="girder_ax shows nothing.*leave this run out"):
+        fit_runs(bare, {run.name: {"girder_ax": every}})
+
+
 @pytest.fixture(scope="module")
 def isolated() -> Specimen:
     """A frame of two storeys on four rubber bearings."""

@@ -12,6 +12,7 @@ from slipwise.rig import Specimen, load_specimen
 from slipwise.rig.mjcf.writer import mjcf_text
 from slipwise.rig.places import Buffer
 from slipwise.simulation.replay import replay
+from slipwise.view.figures.loop_pictures import loops_figure
 
 TEXT = """
 mass = "12 t"
@@ -94,3 +95,11 @@ def test_one_buffer_is_enough_to_hold_a_girder() -> None:
     bridge = load_specimen("bridge1")
     held = bridge.changed(friction="none", buffers=(Buffer("1", 0.0, 0.0, 0.0, 1e5, 1e5),))
     assert base_model(held).specimen.frequency == pytest.approx(np.sqrt(1e5 / bridge.mass) / (2.0 * np.pi))
+
+
+def test_the_picture_of_the_loops_is_that_of_the_buffers(tmp_path: Path) -> None:
+    specimen = read(tmp_path)
+    found = replay(base_model(specimen), QUAKE).record
+    assert [axes.get_ylabel() for axes in loops_figure(found).axes] == ["ΣF of the buffers along x [kN]"]
+    sliding = replay("bridge1", "sine:2Hz,0.3g,cycles=2").record
+    assert len(loops_figure(sliding).axes) == 5

@@ -21,6 +21,8 @@ from slipwise.view.words.numbers import NOTHING
 _NARROW = 0.17
 #: Longer lines become an image inside an SVG: megabytes of vectors help nobody.
 _VECTOR_POINTS = 4000
+#: Friction that is less of the load is rounding [1].
+_NO_FRICTION = 1e-9
 _LOOP_WORDS = (
     "kN cm: energy dissipated over the record.  edge: slope of |F| over slip while it slides, 0 for a rectangle "
     "[kN/mm].  flatness: 1 − rms deviation of |F| from its branch's mean over the mean |F|, 1 for a rectangle [1].\n"
@@ -30,8 +32,13 @@ _LOOP_WORDS = (
 
 
 def loops_figure(record: Record, geometry: RigGeometry | None = None) -> Figure:
-    """Draw every pad's loop, arranged as seen from above, and their sum; along y too where the girder slid that way."""
+    """Draw every pad's loop, arranged as seen from above, and their sum; along y too where the girder slid that way.
+
+    Of bearings that do not slide the loop of all buffers together is drawn.
+    """
     along, layout = "xy" if _slid(record, "y") else "x", layout_of(record, geometry)
+    if not _rubs(record, layout.pads):
+        return _buffers_figure(record, along)
     height = 0.6 + 6.2 * len(along) + 0.5
     with styled():
         figure = new_figure(12.0, height, "Friction against slip")
@@ -40,6 +47,29 @@ def loops_figure(record: Record, geometry: RigGeometry | None = None) -> Figure:
             top = height - 0.8 - 6.2 * i
             _loops_along(figure, record, layout, axis, top / height, (top - 5.3) / height)
         figure.text(0.01, 0.08 / height, _LOOP_WORDS, fontsize=8.0, color=MUTED, va="bottom")
+    return figure
+
+
+def _rubs(record: Record, pads: Sequence[str]) -> bool:
+    """Return whether pads carry friction, or none of it was recorded; where buffers are the isolators they do not."""
+    forces = [record[n] for pad in pads if (n := f"pad_{pad}_Fx") in record]
+    loads = [record[n] for pad in pads if (n := f"pad_{pad}_N") in record]
+    if not forces or not loads or not _buffer_channels(record, "x"):
+        return True
+    return float(np.max(np.abs(forces))) > _NO_FRICTION * float(np.max(loads))
+
+
+def _buffer_channels(record: Record, axis: str) -> list[str]:
+    return [name for name in record.channels if name.startswith("buffer_") and name.endswith(f"_F{axis}")]
+
+
+def _buffers_figure(record: Record, along: str) -> Figure:
+    """Draw the sum of the buffers' forces over slip, along each axis."""
+    with styled():
+        figure = new_figure(6.4 * len(along), 5.2, "Force of the buffers against slip")
+        for axes, axis in zip(figure.subplots(1, len(along), squeeze=False)[0], along, strict=True):
+            _loop(axes, record, axis, _buffer_channels(record, axis), SUM)
+            axes.set(xlabel=f"slip {axis} [mm]", ylabel=f"ΣF of the buffers along {axis} [kN]")
     return figure
 
 
@@ -60,13 +90,12 @@ def _loops_along(figure: Figure, record: Record, layout: PadLayout, axis: str, t
     panels = pad_panels(figure, grid, layout, wide + 1, labels, 10.0 if wide == 2 else 9.0)
     panels[SUM_PANEL].set(title=f"Sum of the pads, along {axis}", ylabel=f"ΣF along {axis} [kN]")
     for pad in layout.panels:
-        _loop(panels[pad], record, axis, [pad], pad_colour(pad))
-    _loop(panels[SUM_PANEL], record, axis, layout.pads, SUM)
+        _loop(panels[pad], record, axis, [f"pad_{pad}_F{axis}"], pad_colour(pad))
+    _loop(panels[SUM_PANEL], record, axis, [f"pad_{pad}_F{axis}" for pad in layout.pads], SUM)
 
 
-def _loop(axes: Axes, record: Record, axis: str, pads: Sequence[str], colour: str) -> None:
-    """Draw the sum of some pads' friction over slip with the loop's numbers beside it."""
-    forces = [f"pad_{pad}_F{axis}" for pad in pads]
+def _loop(axes: Axes, record: Record, axis: str, forces: Sequence[str], colour: str) -> None:
+    """Draw the sum of some channels of force over slip with the loop's numbers beside it."""
     if missing(axes, record, [f"slip_{axis}", *forces]):
         return
     force = np.sum([record[name] for name in forces], axis=0)
