@@ -2,7 +2,7 @@
 
     python scripts/20_plan.py --out out/plan                  # 40 campaigns, five of each effect
     python scripts/20_plan.py --out out/plan --each 2
-    python scripts/20_plan.py --quick                         # the plan alone
+    python scripts/20_plan.py --quick                         # the plan alone, of one motion
 
 The plan sees the motions and the gauges, and the rig as rated. Each campaign has a rig of its own, several percent off,
 an effect of either sign at the size that the plan calls one limit, and gauges' noise. What was diagnosed before is kept
@@ -81,10 +81,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=Path, default=Path("out/plan"))
     parser.add_argument("--each", type=int, default=5, help="campaigns of each effect")
-    parser.add_argument("--quick", action="store_true", help="the plan alone")
+    parser.add_argument("--quick", action="store_true", help="the plan alone, of one motion")
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
     motions = make_motions()
+    if args.quick:
+        motions = {"sine_hv": motions["sine_hv"]}
     planned = sw.plan(RIG, [as_planned(name, motion) for name, motion in motions.items()], USUAL)
     print(planned.sentence)
     chances = {c.effect: c for c in planned.planned.of_rig if c.effect in SETTINGS}
