@@ -15,7 +15,10 @@ def consequence(
     model: Annotated[str, typer.Argument(help="The fitted model.toml, or a name of `slipwise rigs`.")],
     motions: Annotated[
         list[str] | None,
-        typer.Option(help="Of the bridge: a file, a folder of records, or a synthetic motion; may be repeated."),
+        typer.Option(
+            help="Of the bridge: a file, a folder of records, or a synthetic motion; may be repeated. In a folder each "
+            "folder is a record, and so are files that differ in their endings only, and PEER's of one number."
+        ),
     ] = None,
     out: Annotated[
         Path, typer.Option(help="Folder for consequence.html, .png, .csv and .json, the members and both models.")

@@ -1,5 +1,6 @@
 """Earthquakes of the bridge: records, folders of records, drawn ones, scaled to a spectrum and brought to the model."""
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -11,6 +12,8 @@ from slipwise.simulation.simulator import DT
 
 #: An earthquake that is drawn where nothing is said of it: that of `slipwise motions`, in the time of a bridge.
 DRAWN = "quake:f=1.2Hz,strong=13s"
+#: How PEER's files begin: the number of the record in its data base.
+_PEER = re.compile(r"RSN\d+(?=_)")
 
 
 def list_earthquakes(
@@ -19,8 +22,8 @@ def list_earthquakes(
     """Return the table's motions by name, and what was left out.
 
     Args:
-        given: files, folders (each file in it, and each folder in it, is a record) and descriptions. Of a quake without
-            a seed as many are drawn as `drawn` says.
+        given: files, folders (see `_records`) and descriptions. Of a quake without a seed as many are drawn as `drawn`
+            says.
         drawn: how many.
         seed: of the first one that is drawn.
         target: spectrum of the bridge to which each is scaled; None leaves them as they are.
@@ -59,10 +62,7 @@ def _named(given: Sequence[str], drawn: int, seed: int) -> list[tuple[str, list[
     seeds = 0
     for text in texts:
         if Path(text).is_dir():
-            for entry in sorted(Path(text).iterdir()):
-                files = sorted(str(f) for f in entry.iterdir() if f.is_file()) if entry.is_dir() else [str(entry)]
-                if files and not entry.name.startswith("."):
-                    out.append((str(entry), files, True))
+            out += [(name, files, True) for name, files in _records(Path(text)).items()]
         elif drawn and is_description(text) and text.startswith("quake") and "seed=" not in text:
             seeds += 1
             rest = text.partition(":")[2]
@@ -76,3 +76,22 @@ def _named(given: Sequence[str], drawn: int, seed: int) -> list[tuple[str, list[
             "motion at all"
         )
     return out
+
+
+def _records(folder: Path) -> dict[str, list[str]]:
+    """Return the records of a folder, name -> files.
+
+    Each folder in it is one, and so are files that differ in their endings only (K-NET's ABC.EW, ABC.NS, ABC.UD) and
+    files of one record sequence number of PEER (RSN1633_...); components of other names go into a folder of their own.
+    """
+    found: dict[str, list[str]] = {}
+    for entry in sorted(folder.iterdir()):
+        if entry.name.startswith("."):
+            continue
+        if entry.is_dir():
+            if files := sorted(str(f) for f in entry.iterdir() if f.is_file() and not f.name.startswith(".")):
+                found[str(entry)] = files
+        else:
+            numbered = _PEER.match(entry.name)
+            found.setdefault(str(folder / (numbered[0] if numbered else entry.stem)), []).append(str(entry))
+    return {name if len(files) > 1 or Path(name).is_dir() else files[0]: files for name, files in found.items()}

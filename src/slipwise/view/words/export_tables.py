@@ -50,7 +50,7 @@ def response_rows(found: OpenSeesExport) -> list[dict[str, Any]]:
         }
         if math.isfinite(one.theirs):
             theirs = float(convert(one.theirs, one.unit, unit))
-            row |= {"OpenSees": _four(theirs), "difference [%]": round(100.0 * one.error, 2)}
+            row |= {"OpenSees": _four(theirs), "difference [%]": round(100.0 * one.error, 2) + 0.0}
         rows.append(row)
     if math.isfinite(found.difference):
         rows.append(
