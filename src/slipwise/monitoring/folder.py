@@ -105,7 +105,12 @@ class Observer:
         """Return data files that campaign.toml does not name, and could not: they are younger, the oldest first."""
         found: dict[str, FileState] = {}
         for path in self.folder.iterdir():
-            if path.suffix.lower() not in SUFFIXES or path.name.startswith((".", "~")) or path.name in listed:
+            if (
+                path.is_dir()
+                or path.suffix.lower() not in SUFFIXES
+                or path.name.startswith((".", "~"))
+                or path.name in listed
+            ):
                 continue
             state = state_of(path)
             younger = state is not None and campaign is not None and state.changed > campaign.changed
@@ -121,24 +126,32 @@ class Observer:
             since, grows = now, True
         self.since[name] = state, since, grows
         try:
-            ending = how_it_ends(self.folder / name)
+            endings = {how_it_ends(path) for path in _files_of(self.folder / name)}
         except OSError as error:  # it is being copied, or was taken away again
             return False, f"cannot be read ({error.strerror})"
-        if now - since >= (_OPEN if ending == "open" else _SETTLED):
-            return ending != "cut", "ends in the middle of a line: it is half-written" if ending == "cut" else ""
+        if now - since >= (_OPEN if "open" in endings else _SETTLED):
+            cut = "cut" in endings
+            return not cut, "ends in the middle of a line: it is half-written" if cut else ""
         return False, "is still being written" if grows else ""
 
 
 def state_of(path: Path) -> FileState | None:
-    """Return the state of a file, None where there is none."""
+    """Return the state of a file, or of all files of a run that lies in a folder; None where there is none."""
     with suppress(OSError):
-        found = path.stat()
-        return FileState(found.st_size, found.st_mtime_ns) if path.is_file() else None
+        found = [one.stat() for one in _files_of(path)]
+        if found:
+            return FileState(sum(one.st_size for one in found), max(one.st_mtime_ns for one in found))
     return None
+
+
+def _files_of(path: Path) -> list[Path]:
+    if path.is_dir():
+        return [one for one in path.iterdir() if one.is_file() and not one.name.startswith(".")]
+    return [path] if path.is_file() else []
 
 
 def _file_of(folder: Path, name: str) -> str:
     """Return the file in which a run lies: "run.dat#2" is a table of run.dat."""
-    if "#" in name and not (folder / name).is_file():
+    if "#" in name and not (folder / name).exists():
         return name.rpartition("#")[0]
     return name

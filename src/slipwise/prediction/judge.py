@@ -212,6 +212,8 @@ def _loads(law: ReadLaw, runs: tuple[ComparedRun, ...]) -> str:
         return "The prediction has no loads of pads."
     measured, predicted = (max(pair[k] for pair in changes) for k in (0, 1))
     follows = "friction follows the load" if law.family.follows_load else "friction sees a constant load"
+    if predicted < _VARIES:
+        follows = "whether friction would follow them nobody can see"
     return f"Its loads change by {100 * predicted:.3g} % (rms), those of the test by {100 * measured:.3g} %; {follows}."
 
 

@@ -82,6 +82,23 @@ def test_a_file_that_is_cut_in_a_line_is_waited_for_in_one_sentence(tmp_path, ju
     assert judged == [("one",)]
 
 
+def test_a_run_in_several_files_is_taken_when_all_of_them_are_whole(tmp_path, judged):
+    columns = ("run: time", "run: slip", "force: load", "force: friction")
+    names = zip(columns, ("time", "slip_x", "pad_A_N", "pad_A_Fx"), ("s", "mm", "kN", "kN"), strict=True)
+    lines = [f'"{c}" = {{ channel = "{name}", unit = "{unit}" }}' for c, name, unit in names]
+    run = '[[run]]\nfile = "one"\nrole = "fit"\n'
+    (tmp_path / "campaign.toml").write_text(TOML + "[columns]\n" + "\n".join(lines) + "\n" + run)
+    table = slider(1)
+    (tmp_path / "one").mkdir()
+    (tmp_path / "one" / "run.csv").write_text(text(table[:, :2], "time,slip"))
+    whole = text(table[:, 2:], "load,friction")
+    (tmp_path / "one" / "force.csv").write_text(whole[:300].rpartition(",")[0])
+    day = watch(tmp_path, tmp_path / "watch.json")
+    assert any(words.startswith("one ends in the middle of a line") for words in until(day, "waiting").waiting)
+    (tmp_path / "one" / "force.csv").write_text(whole)
+    assert until(day, "verdict").steps[-1].runs == ("one",)
+
+
 def test_a_run_that_cannot_be_read_is_told_and_the_others_are_judged(tmp_path, judged):
     (tmp_path / "campaign.toml").write_text(FIRST)
     write(tmp_path / "one.csv", 1)

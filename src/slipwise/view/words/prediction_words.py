@@ -89,7 +89,9 @@ def _row(found: ComparedNumber) -> dict[str, str]:
 
 
 def _figures(value: float) -> str:
-    return f"{value:.4g}" if value == value else "unknown"
+    if value != value:
+        return "unknown"
+    return f"{value:.0f}" if 1e3 <= abs(value) < 1e7 else f"{value:.4g}"
 
 
 def _share(value: float) -> str:
