@@ -109,7 +109,6 @@ REASONS = {
     "effects/_prandtl.py": "compiled code, out of an effect's file, which is read as an example",
     "effects/_trust.py": "reached through the package",
     "jobs/stage_clock.py": "measures long work of any package",
-    "relations/transverse_friction.py": "a relation of its own beside the others",
     "simulation/kernel/prescribed_table.py": "a correction of MuJoCo's step, with its derivation",
     "simulation/kernel/rig_motion.py": "what laws are told of the rig, as campaign/rig_motion.py has it measured",
     "view/replay_files.py": "decides what is loaded: it loads nothing that draws until something is drawn",

@@ -101,5 +101,5 @@ def test_the_picture_of_the_loops_is_that_of_the_buffers(tmp_path: Path) -> None
     specimen = read(tmp_path)
     found = replay(base_model(specimen), QUAKE).record
     assert [axes.get_ylabel() for axes in loops_figure(found).axes] == ["ΣF of the buffers along x [kN]"]
-    sliding = replay("bridge1", "sine:2Hz,0.3g,cycles=2").record
+    sliding = replay("bridge1", "sine:2Hz,0.3g,cycles=9").record
     assert len(loops_figure(sliding).axes) == 5
