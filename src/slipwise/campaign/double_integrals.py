@@ -2,8 +2,8 @@
 
     d = s * double integral of (a_i - a_j)      or of a_i alone, which is a motion in space
 
-compared as accelerations, in the frequencies in which the displacement stands above the noise of all gauges. A displacement
-that was measured has a noise of its own: where the motion is a few millionths of a metre it no longer follows the
+compared as accelerations, in the frequencies in which the displacement stands above the noise of all gauges. One that
+was measured has a noise of its own: where the motion is a few millionths of a metre it no longer follows the
 accelerations. One that does follow them there was computed from them, and says nothing that they do not.
 """
 
@@ -46,7 +46,11 @@ class Source:
 
     def seen_from(self, reference: int) -> "Source":
         """Return the same with `reference` as the acceleration that is taken away, where it is one of the two."""
-        return Source(self.minus, self.plus, -self.scale, self.agreement) if self.plus == reference and self.minus is not None else self
+        return (
+            Source(self.minus, self.plus, -self.scale, self.agreement)
+            if self.plus == reference and self.minus is not None
+            else self
+        )
 
 
 @dataclass(frozen=True)
@@ -123,7 +127,9 @@ def judge_fineness(displacement: Array, acceleration: Array, dt: float) -> Finen
     products = [float(np.real(np.vdot(a, b))) for a, b in ((one, other), (one, one), (other, other))]
     agreement = products[0] / max(float(np.sqrt(products[1] * products[2])), 1e-300)
     first = int(np.flatnonzero(fine)[0])
-    return Fineness(abs(agreement) > _COMPUTED, float(beyond[first]), float(turning[1:][first]) / (2.0 * np.pi), agreement)
+    return Fineness(
+        abs(agreement) > _COMPUTED, float(beyond[first]), float(turning[1:][first]) / (2.0 * np.pi), agreement
+    )
 
 
 def _bent(displacement: Array, dt: float) -> tuple[NDArray[np.complex128], Array]:

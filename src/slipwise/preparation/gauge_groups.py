@@ -46,14 +46,16 @@ def find_places_of_gauges(effect: Effect, record: Record) -> dict[str, tuple[str
 
 
 def find_floors_of_gauges(effect: Effect, record: Record) -> dict[str, tuple[str, ...]]:
-    """Return the gauges of floors on which a fault may sit: where a floor has both, its two gauges contradict each other.
+    """Return the gauges of floors on which a fault may sit: a floor's displacement and acceleration, where it has both.
 
     Audits look for them; fits hold nothing against a floor's displacement.
     """
     floors = [n for n in record.channels if n.startswith("storey_") and n[-2] == "d"]
     both = [name for floor in floors for name in (floor, f"{floor[:-2]}a{floor[-1]}") if name in record]
     moved = moved_channels(effect, both)
-    return {name: (name,) for name in both if name in moved and _sits(effect, name, (name,)) and not effect.gauges.reads}
+    return {
+        name: (name,) for name in both if name in moved and _sits(effect, name, (name,)) and not effect.gauges.reads
+    }
 
 
 def _sits(effect: Effect, place: str, channels: tuple[str, ...]) -> bool:

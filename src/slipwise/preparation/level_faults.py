@@ -1,8 +1,8 @@
-"""Accelerations of a structure's levels held against each other: each answers the one below, without any gauge of force.
+"""Accelerations of a structure's levels held against each other: each answers the one below, whatever the forces are.
 
-Of a run's levels as campaign.toml maps them it is asked what leaves least of the inertia of all storeys unexplained (see
-`slipwise.campaign.level_order`): the levels as they are, one of them turned round, one of them late, or all of them in
-another order. A level that hardly moves beside the others is dead, and the others are held against each other without it.
+It is asked what leaves least of the inertia of all storeys unexplained (see `slipwise.campaign.level_order`): the
+levels of a run as campaign.toml maps them, one of them turned round, one of them late, or all in another order. A level
+that hardly moves beside the others is dead, and the others are held against each other without it.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -63,6 +63,11 @@ class LevelsOfRun:
     def holds(self) -> bool:
         """Whether each level answers the one below."""
         return len(self.links) > 0 and links_hold(self.links)
+
+    @property
+    def contradicts(self) -> bool:
+        """Whether the motions show other levels than those mapped, or one turned round or late."""
+        return self.order != self.levels or bool(self.turned or self.late)
 
 
 def read_levels(campaign: Campaign) -> list[LevelsOfRun]:

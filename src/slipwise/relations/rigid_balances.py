@@ -98,7 +98,9 @@ def list_rigid_balances(record: Record, specimen: Specimen) -> tuple[list[Relati
         if name not in of_pads and not name.endswith(("_y", "_along", "_across"))
     ]
     if of_pads and specimen.free:
-        cannot.append(f"{', '.join(n for n in of_pads if n[-2:] != '_y')}: no load and no friction of a pad was measured")
+        cannot.append(
+            f"{', '.join(n for n in of_pads if n[-2:] != '_y')}: no load and no friction of a pad was measured"
+        )
     if not specimen.free:
         cannot.append("balances: the slip is prescribed, no girder ties forces to accelerations")
     return kept, cannot

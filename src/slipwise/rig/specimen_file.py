@@ -218,7 +218,11 @@ def _storeys(content: Mapping[str, Any], where: str) -> tuple[Storey, ...]:
         _both_ways(values, "damping")
         for needed in ("mass", "z", "stiffness_x", "stiffness_y"):
             if needed not in values:
-                unknown = "; motions tell no mass: where no drawing does, write that of the girder" if needed == "mass" else ""
+                unknown = (
+                    "; motions tell no mass: where no drawing does, write that of the girder"
+                    if needed == "mass"
+                    else ""
+                )
                 raise InputError(
                     f"{here} lacks {needed}; a storey has mass, z and stiffness, or stiffness_x and _y{unknown}"
                 )

@@ -157,7 +157,9 @@ def _recognised(file: DataFile, mapped: Mapping[str, Mapped]) -> Record | None:
 def _derived(mapped: Mapping[str, Mapped]) -> list[str]:
     """Return [derived]: displacements with another reference than their channel's."""
     lines = [f"{m.channel.removesuffix('_raw')} = {quoted(m.derived)}" for m in mapped.values() if m.derived]
-    return ["[derived]   # decide: displacements that were measured from elsewhere", *sorted(lines), ""] if lines else []
+    return (
+        ["[derived]   # decide: displacements that were measured from elsewhere", *sorted(lines), ""] if lines else []
+    )
 
 
 def _runs(records: Mapping[str, Record | None], own: Mapping[str, Mapping[str, Mapped]]) -> list[str]:

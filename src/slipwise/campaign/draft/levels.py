@@ -200,7 +200,8 @@ def _displacements(
     names = [f"{_place(place)}_d{axis}" for place in range(len(order.levels))]
     places = {i: place for place, i in enumerate(order.levels)}
     table = names[0] in known or any(s and s.plus == order.levels[0] and s.minus is None for s in found.values())
-    for column in sorted(lengths, key=lambda c: -(found[c.header].agreement if found[c.header] else 0.0)):
+    agreement = {header: source.agreement if source else 0.0 for header, source in found.items()}
+    for column in sorted(lengths, key=lambda c: -agreement[c.header]):
         source = found[column.header]
         if source is None:
             yield column, None, "it is the double integral of no acceleration here, and of no difference of two"
@@ -218,9 +219,7 @@ def _displacements(
         yield column, Mapped(channel, unit, sign, _why(column, source, levels, signals, unit, dt), "sure", derived), ""
 
 
-def _sources(
-    column: Column, levels: Sequence[Column], order: LevelOrder, signals: Array, dt: float
-) -> Source | None:
+def _sources(column: Column, levels: Sequence[Column], order: LevelOrder, signals: Array, dt: float) -> Source | None:
     """Return what a displacement belongs to: of sources as good one of the table, and of its own number."""
     every = [source.seen_from(order.levels[0]) for source in find_sources(column.values, signals, dt)]
     if not every or every[0].agreement < AGREE:
@@ -235,9 +234,7 @@ def _sources(
     return max(as_good, key=likely)
 
 
-def _channel_of(
-    source: Source, places: Mapping[int, int], axis: str, names: Sequence[str]
-) -> tuple[str, str]:
+def _channel_of(source: Source, places: Mapping[int, int], axis: str, names: Sequence[str]) -> tuple[str, str]:
     """Return the channel of a displacement, and how it is computed from the column where that has another reference."""
     names = [names[0], f"slip_{axis}", *names[2:]]
     place = places[source.plus]
@@ -261,9 +258,7 @@ def _unit_and_sign(column: Column, source: Source) -> tuple[str, int]:
     return (unit if abs(abs(source.scale) * factor - 1.0) < 0.2 else "?"), sign
 
 
-def _why(
-    column: Column, source: Source, levels: Sequence[Column], signals: Array, unit: str, dt: float
-) -> str:
+def _why(column: Column, source: Source, levels: Sequence[Column], signals: Array, unit: str, dt: float) -> str:
     plus = levels[source.plus].header
     of = repr(plus) if source.minus is None else f"{plus!r} minus {levels[source.minus].header!r}"
     why = f"the double integral of {of}, correlation {source.agreement:.3f}"
