@@ -30,7 +30,7 @@ def structure_draft(levels: LevelOrder) -> str:
     lines = [
         "# Drafted: a structure on isolators of which no force was measured. Lines with `decide` need your eyes.",
         "# Motions tell no masses: all levels are ASSUMED to be as heavy. Replace that: forces scale with them.",
-        'friction = "none"   # decide: no column holds a pad's force: isolators that do not slide; else leave it out',
+        'friction = "none"   # decide: no pad shows a force: isolators that do not slide; else leave it out',
         f"mass = {mass}   # decide: assumed: of the base above the isolators",
         'box = ["4 m", "3 m", "0.5 m"]   # decide: the base along x (shaking), y and z: its moments of inertia',
         'centre_height = "0.4 m"   # decide: of its centre of gravity above the isolators',
