@@ -28,7 +28,7 @@ _CLEAR, _NEARLY = 0.2, 0.1
 _IDLE = 0.08
 #: Delays that are tried without a hint [s], in steps of this part of the shortest period; longer ones where a level
 #: resembles its neighbour most, up to the longest [s].
-_SHORT, _STEP, _LONG = 0.1, 1.0 / 40.0, 6.0
+_SHORT, _STEP, _LONG = 0.1, 0.025, 6.0
 #: Steps that are taken at once where a delay is looked for first.
 _WIDE = 4
 #: Runs agree on a delay within this share of it, and at least within so many steps of the tried ones [1].
