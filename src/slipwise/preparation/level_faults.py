@@ -138,6 +138,8 @@ def _levels_of(run: Run, specimen: Specimen, axis: str) -> LevelsOfRun | None:
     there = [name for name in names if name in run.record and np.isfinite(run.record[name]).all()]
     if not FEWEST_LEVELS <= len(there) <= MOST_LEVELS:
         return None
+    if not _shaken(run, there, axis):
+        return None
     size = {name: float(np.std(run.record[name])) for name in there}
     dead = tuple(n for n in there if size[n] <= _IDLE * float(np.median([size[m] for m in there if m != n])))
     moving = [name for name in there if name not in dead]
@@ -166,6 +168,16 @@ def _levels_of(run: Run, specimen: Specimen, axis: str) -> LevelsOfRun | None:
         asked, turned, late = plain, [], {}  # they were held against the wrong levels
     links = judge_order(asked.spectra, order, asked.masses)
     return LevelsOfRun(run.name, tuple(moving), links, dead, tuple(turned), late, tuple(moving[i] for i in order))
+
+
+def _shaken(run: Run, levels: Sequence[str], axis: str) -> bool:
+    """Return whether a run was shaken along an axis: its table moves beside the levels, and they as along the other."""
+    table, other = f"table_a{axis}", {"x": "y", "y": "x"}[axis]
+    moved = float(np.median([np.std(run.record[name]) for name in levels]))
+    if table in levels and float(np.std(run.record[table])) <= _IDLE * moved:
+        return False
+    beside = [f"{name[:-1]}{other}" for name in levels if f"{name[:-1]}{other}" in run.record]
+    return not beside or moved > _IDLE * float(np.median([np.std(run.record[name]) for name in beside]))
 
 
 @dataclass(frozen=True, eq=False)

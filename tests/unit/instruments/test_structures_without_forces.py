@@ -154,6 +154,15 @@ def test_accelerations_of_no_one_structure_are_not_judged(building):
     assert any("does not answer" in words for words in found.cannot)
 
 
+def test_a_table_that_does_not_shake_across_is_not_dead_there(building):
+    def across(record: Record) -> Record:
+        levels = [n for n in record.channels if n.endswith("_ax")]
+        return record.replaced(**{f"{n[:-1]}y": (0.0 if n == "table_ax" else 0.02) * record[n] for n in levels})
+
+    found = check_instruments(with_runs(building, across))
+    assert not found.accused and not any("_ay does not answer" in words for words in found.cannot)
+
+
 def test_a_displacement_made_of_accelerations_is_no_independent_gauge(building):
     def computed(record: Record) -> Record:
         drift = record["storey_1_ax"] - record["table_ax"]
