@@ -2,8 +2,8 @@
 
     d = s * double integral of (a_i - a_j)      or of a_i alone, which is a motion in space
 
-compared as accelerations, in the frequencies in which the displacement stands above the noise of all gauges. A displacement
-that was measured has a noise of its own: where the motion is a few millionths of a metre it no longer follows the
+compared as accelerations, in the frequencies in which the displacement stands above the noise of all gauges. One that
+was measured has a noise of its own: where the motion is a few millionths of a metre it no longer follows the
 accelerations. One that does follow them there was computed from them, and says nothing that they do not.
 """
 

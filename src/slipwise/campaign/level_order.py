@@ -5,10 +5,10 @@ follows the drift between their ends:
 
     sum of m_i a_i over the levels from i up = -(k d + c d'),      d'' = a_i - a_below,     k, c >= 0
 
-The table is the cause: nothing above it makes its motion, and each level answers the one below. Of all orders the one
-counts in which the least of the inertia is left unexplained, summed over the storeys; masses are taken to be equal where
-none are given. All orders are judged at once: what is left of a storey depends on which levels stand above it, not on
-how they stand (Held and Karp, J. SIAM 10, 1962).
+The table is the cause: nothing above it makes its motion, and each level answers the one below. Of all orders that one
+counts in which the least of the inertia is left unexplained, summed over the storeys; masses are taken to be equal
+where none are given. All orders are judged at once: what is left of a storey depends on which levels stand above it,
+not on how they stand (Held and Karp, J. SIAM 10, 1962).
 
 Source: Chopra, Dynamics of Structures, chapter 9: equations of motion of a shear building.
 """
@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from slipwise.arrays import Array
 from slipwise.campaign.level_spectra import LevelSpectra
@@ -39,13 +40,13 @@ class StoreyLink:
         left: share of the inertia above that stiffness and damping leave [1].
         stiffness: over the mean mass of a level [1/s^2].
         damping: likewise [1/s].
-        above: levels that it carries.
+        above: mass that it carries, likewise [1].
     """
 
     left: float
     stiffness: float
     damping: float
-    above: int
+    above: float
 
     @property
     def frequency(self) -> float:
@@ -143,13 +144,14 @@ class _Products:
 
     @classmethod
     def of(cls, spectra: LevelSpectra) -> "_Products":
-        values, turning = spectra.values, spectra.turning
+        values = spectra.values
 
-        def product(one: Array, other: Array) -> Array:
+        def product(one: NDArray[np.complex128], other: NDArray[np.complex128]) -> Array:
             return np.asarray(np.real(one.conj() @ other.T), dtype=np.float64)
 
         # of a drift d'' = a the spring carries -k d = k a / w^2, the damper -c d' = i c a / w
-        drift, rate = values / turning**2, 1j * values / turning
+        drift = np.asarray(values / spectra.turning**2, dtype=np.complex128)
+        rate = np.asarray(1j * values / spectra.turning, dtype=np.complex128)
         return cls(
             product(values, values),
             product(drift, values),
@@ -173,7 +175,7 @@ class _Products:
             parts.append((max(work, 0.0) / max(size, 1e-300), max(work, 0.0) ** 2 / max(size, 1e-300)))
         (stiffness, by_spring), (damping, by_damper) = parts
         left = 1.0 - (by_spring + by_damper) / max(inertia, 1e-300)
-        return StoreyLink(max(left, 0.0), stiffness, damping, len(levels))
+        return StoreyLink(max(left, 0.0), stiffness, damping, float(mass.sum()))
 
 
 def _best(products: _Products) -> tuple[float, tuple[int, ...]]:

@@ -1,4 +1,4 @@
-"""Accelerations of the levels of a structure in the frequencies that show it: where all of them stand above their noise.
+"""Accelerations of the levels of a structure, in the frequencies in which all of them stand above their noise.
 
 Each frequency counts alike, whatever it carries: the levels of an isolated structure move as one at the period of the
 isolation, where most of the motion is, and apart at those of the storeys, which tell one level from another.
@@ -31,15 +31,13 @@ class LevelSpectra:
     """Spectra of accelerations in the frequencies that count.
 
     Attributes:
-        values: (n, m) complex, each frequency weighed by the mean power of all.
-        weight: (m,) by which they are weighed [1/(m/s^2)].
+        values: (n, m) complex, each frequency divided by the root of the mean power of all signals there [1].
         turning: (m,) circular frequency [rad/s].
         samples: of the record.
         dt: step of the record [s].
     """
 
     values: NDArray[np.complex128]
-    weight: Array
     turning: Array
     samples: int
     dt: float
@@ -56,14 +54,6 @@ class LevelSpectra:
     def brought_forward(self, delays: Sequence[float]) -> "LevelSpectra":
         """Return them with each signal brought forward by its delay [s]."""
         return replace(self, values=self.values * np.exp(1j * np.outer(delays, self.turning)))
-
-    def chosen(self, signals: Sequence[int]) -> "LevelSpectra":
-        """Return those of some signals."""
-        return replace(self, values=self.values[list(signals)])
-
-    def with_more(self, more: NDArray[np.complex128]) -> "LevelSpectra":
-        """Return them with further ones (k, m), which are weighed as they are."""
-        return replace(self, values=np.concatenate([self.values, more]))
 
 
 def level_spectra(accelerations: Array, dt: float) -> LevelSpectra | None:
@@ -89,8 +79,8 @@ def level_spectra(accelerations: Array, dt: float) -> LevelSpectra | None:
     if np.count_nonzero(counts) < _FEWEST_LINES:
         return None
     weight = 1.0 / np.sqrt(power.mean(axis=0)[counts])
-    turning = 2.0 * np.pi * frequency[counts]
-    return LevelSpectra(every[:, counts] * weight, weight, turning, accelerations.shape[1], dt)
+    turning = np.asarray(2.0 * np.pi * frequency[counts], dtype=np.float64)
+    return LevelSpectra(every[:, counts] * weight, turning, accelerations.shape[1], dt)
 
 
 def spectrum(signals: Array) -> NDArray[np.complex128]:

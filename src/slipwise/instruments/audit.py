@@ -70,8 +70,8 @@ def audit(campaign: Campaign | Path | str | Prepared, own: Iterable[Effect] = ()
     notes = [*wild_samples(campaign.runs), *_rounded(campaign)]
     notes += [one.words for one in prepared.corrections if one.kind == "wrong_rig"]
     levels = read_levels(clean)
-    reordered = {one.run for one in levels if one.order != one.levels}
-    displacements = check_displacements([run for run in clean.runs if run.name not in reordered], rig)
+    contradicted = {one.run for one in levels if one.contradicts}
+    displacements = check_displacements([run for run in clean.runs if run.name not in contradicted], rig)
     notes += displacements.notes
     cannot += silent_levels(levels)
     plain = AuditReport(
@@ -88,15 +88,13 @@ def audit(campaign: Campaign | Path | str | Prepared, own: Iterable[Effect] = ()
     )
     # a column that holds something else than said is held against nothing more
     allowed = [relation for relation in allowed if not set(relation.needs) & set(displacements.elsewhere)]
-    in_order = [run for run in runs if run.name not in reordered]
-    if not in_order:
-        return plain
-    runs, noise = in_order, draw_run_noise(in_order, clean.gauges, step, band)
-    if not any(relation.accuses and relation.rows in ("moving", "inner") for relation in allowed):
+    runs = [run for run in runs if run.name not in contradicted]
+    if not runs or not any(relation.accuses and relation.rows in ("moving", "inner") for relation in allowed):
         return plain
     if not stack_rows(runs, allowed, rig, dict.fromkeys(list_constants(allowed), 0.0)).residual:
         why = "balances: no run has a sample at which they hold; the runs are too short, or the rig is at rest in them"
         return replace(plain, cannot=(*plain.cannot, why))
+    noise = draw_run_noise(runs, clean.gauges, step, band)
     likeliest = campaign.logger if logger is None else logger.likeliest
     highest = passed(likeliest.every if likeliest else None, clean.runs[0].record.dt)
     effects = {**catalogue(), **{e.name: e for e in own}}

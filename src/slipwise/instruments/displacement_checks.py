@@ -13,7 +13,7 @@ from slipwise.rig import Specimen, storey_names
 
 #: A displacement has another reference than said where that leaves so many times less of it unexplained [1], and where
 #: what was said leaves at least this [1].
-_TIMES, _LEAST = 4.0, 0.001
+_TIMES, _LEAST = 3.0, 0.001
 
 
 @dataclass(frozen=True)
@@ -130,19 +130,19 @@ def _elsewhere(name: str, reference: str, runs: Sequence[str], count: int) -> st
         )
     if place == "table":
         return (
-            f"{name}{where} is no displacement in space but the table's minus that of {reference}, by their accelerations; "
-            "map a displacement of the table itself"
+            f"{name}{where} is no displacement in space: by the accelerations it is between the table and {reference}; "
+            "map one of the table itself"
         )
     table = f"table_d{axis}"
     if reference == "space":
         return (
-            f"{name}{where} is a displacement in space and not one from the table, by its acceleration: map the column to "
-            f'{name}_raw, and write {name} = "{name}_raw - {table}" in [derived]'
+            f"{name}{where} is a displacement in space and not one from the table, by its acceleration: map the column "
+            f'to {name}_raw, and write {name} = "{name}_raw - {table}" in [derived]'
         )
     other = f"slip_{axis}" if reference == "girder" else f"{reference}_d{axis}"
     return (
-        f"{name}{where} is the displacement from {reference} and not that from the table, by their accelerations: map the "
-        f'column to {name}_raw, and write {name} = "{name}_raw + {other}" in [derived]'
+        f"{name}{where} is the displacement from {reference} and not that from the table, by their accelerations: map "
+        f'the column to {name}_raw, and write {name} = "{name}_raw + {other}" in [derived]'
     )
 
 
@@ -151,6 +151,7 @@ def _computed_words(computed: Sequence[str], seen: Mapping[str, _Seen]) -> Itera
         size, above = max((size, above) for name in computed for _, size, above in seen[name].fine)
         verb = "is" if len(computed) == 1 else "are"
         yield (
-            f"{', '.join(computed)} {verb} the double integral of accelerations, too well for a gauge: still alike above "
-            f"{above:.3g} Hz, where the motion is {1e6 * size:.2g} um; computed from them, and no independent measurement"
+            f"{', '.join(computed)} {verb} the double integral of accelerations, too well for a gauge: still alike "
+            f"above {above:.3g} Hz, where the motion is {1e6 * size:.2g} um; computed from them, and no independent "
+            "measurement"
         )

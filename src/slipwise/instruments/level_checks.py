@@ -1,4 +1,4 @@
-"""Levels of a structure that the motions show in another order than campaign.toml maps them, and how each storey answers."""
+"""Levels of a structure in another order than campaign.toml maps them, and how each storey answers."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -38,7 +38,7 @@ def storey_answers(read: Sequence[LevelsOfRun]) -> tuple[StoreyAnswer, ...]:
     return tuple(
         StoreyAnswer(levels.run, upper, lower, link.left, link.frequency, link.critical)
         for levels in read
-        if levels.holds and levels.order == levels.levels
+        if levels.holds and not levels.contradicts
         for lower, upper, link in zip(levels.levels[:-1], levels.levels[1:], levels.links, strict=True)
     )
 
@@ -59,9 +59,10 @@ def silent_levels(read: Sequence[LevelsOfRun]) -> list[str]:
                 range(len(levels.links)),
                 key=lambda i: levels.links[i].left / (ISOLATORS_LEFT if i == 0 else STOREY_LEFT),
             )
+            left = levels.links[worst].left
             found.append(
                 f"levels: in {levels.run} {levels.order[worst + 1]} does not answer {levels.order[worst]} as a storey "
-                f"does ({levels.links[worst].left:.0%} of the force is left), whatever the order; nothing is said of them"
+                f"does, in no order: {left:.0%} of the force is left"
             )
     return found
 
@@ -76,13 +77,13 @@ def _reordered(read: Sequence[LevelsOfRun]) -> Iterator[str]:
         moved = [words for words, is_, mapped in zip(moved, these[0].levels, order, strict=True) if is_ != mapped]
         if as_mapped:
             yield (
-                f"in {runs} the levels stand in another order than in the other runs: the motions show {', '.join(moved)}; "
-                "give that run its own lines in [run.columns]"
+                f"in {runs} the levels stand in another order than in the other runs: the motions show "
+                f"{', '.join(moved)}; give that run its own lines in [run.columns]"
             )
         else:
             yield (
-                f"the levels stand in another order than [columns] says: in {runs} the motions show {', '.join(moved)}; "
-                "correct [columns]"
+                f"the levels stand in another order than [columns] says: in {runs} the motions show "
+                f"{', '.join(moved)}; correct [columns]"
             )
 
 
@@ -92,9 +93,12 @@ def _in_some_runs(read: Sequence[LevelsOfRun]) -> Iterator[str]:
         for name in levels.turned:
             if name not in everywhere:
                 yield (
-                    f"{name} stands turned round in {levels.run} and not in other runs; give that run sign = -1 for it in "
-                    "[run.columns]"
+                    f"{name} stands turned round in {levels.run} and not in other runs; give that run sign = -1 for "
+                    "it in [run.columns]"
                 )
         for name, delay in levels.late.items():
             if name not in everywhere:
-                yield f"{name} comes {1e3 * delay:.0f} ms late in {levels.run}, and not so in other runs; its delay is not one"
+                yield (
+                    f"{name} comes {1e3 * delay:.0f} ms late in {levels.run}, and not so in other runs; give that run "
+                    "a file in which it is in step"
+                )

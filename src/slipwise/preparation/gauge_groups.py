@@ -46,7 +46,7 @@ def find_places_of_gauges(effect: Effect, record: Record) -> dict[str, tuple[str
 
 
 def find_floors_of_gauges(effect: Effect, record: Record) -> dict[str, tuple[str, ...]]:
-    """Return the gauges of floors on which a fault may sit: where a floor has both, its two gauges contradict each other.
+    """Return the gauges of floors on which a fault may sit: a floor's displacement and acceleration, where it has both.
 
     Audits look for them; fits hold nothing against a floor's displacement.
     """

@@ -1,8 +1,8 @@
-"""Accelerations of a structure's levels held against each other: each answers the one below, without any gauge of force.
+"""Accelerations of a structure's levels held against each other: each answers the one below, whatever the forces are.
 
-Of a run's levels as campaign.toml maps them it is asked what leaves least of the inertia of all storeys unexplained (see
-`slipwise.campaign.level_order`): the levels as they are, one of them turned round, one of them late, or all of them in
-another order. A level that hardly moves beside the others is dead, and the others are held against each other without it.
+It is asked what leaves least of the inertia of all storeys unexplained (see `slipwise.campaign.level_order`): the
+levels of a run as campaign.toml maps them, one of them turned round, one of them late, or all in another order. A level
+that hardly moves beside the others is dead, and the others are held against each other without it.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -28,7 +28,7 @@ _CLEAR, _NEARLY = 0.2, 0.1
 _IDLE = 0.08
 #: Delays that are tried without a hint [s], in steps of this part of the shortest period; longer ones where a level
 #: resembles its neighbour most, up to the longest [s].
-_SHORT, _STEP, _LONG = 0.1, 1.0 / 40.0, 6.0
+_SHORT, _STEP, _LONG = 0.1, 0.025, 6.0
 #: Steps that are taken at once where a delay is looked for first.
 _WIDE = 4
 #: Runs agree on a delay within this share of it, and at least within so many steps of the tried ones [1].
@@ -63,6 +63,11 @@ class LevelsOfRun:
     def holds(self) -> bool:
         """Whether each level answers the one below."""
         return len(self.links) > 0 and links_hold(self.links)
+
+    @property
+    def contradicts(self) -> bool:
+        """Whether the motions show other levels than those mapped, or one turned round or late."""
+        return self.order != self.levels or bool(self.turned or self.late)
 
 
 def read_levels(campaign: Campaign) -> list[LevelsOfRun]:
@@ -133,6 +138,8 @@ def _levels_of(run: Run, specimen: Specimen, axis: str) -> LevelsOfRun | None:
     there = [name for name in names if name in run.record and np.isfinite(run.record[name]).all()]
     if not FEWEST_LEVELS <= len(there) <= MOST_LEVELS:
         return None
+    if not _shaken(run, there, axis):
+        return None
     size = {name: float(np.std(run.record[name])) for name in there}
     dead = tuple(n for n in there if size[n] <= _IDLE * float(np.median([size[m] for m in there if m != n])))
     moving = [name for name in there if name not in dead]
@@ -161,6 +168,16 @@ def _levels_of(run: Run, specimen: Specimen, axis: str) -> LevelsOfRun | None:
         asked, turned, late = plain, [], {}  # they were held against the wrong levels
     links = judge_order(asked.spectra, order, asked.masses)
     return LevelsOfRun(run.name, tuple(moving), links, dead, tuple(turned), late, tuple(moving[i] for i in order))
+
+
+def _shaken(run: Run, levels: Sequence[str], axis: str) -> bool:
+    """Return whether a run was shaken along an axis: its table moves beside the levels, and they as along the other."""
+    table, other = f"table_a{axis}", {"x": "y", "y": "x"}[axis]
+    moved = float(np.median([np.std(run.record[name]) for name in levels]))
+    if table in levels and float(np.std(run.record[table])) <= _IDLE * moved:
+        return False
+    beside = [f"{name[:-1]}{other}" for name in levels if f"{name[:-1]}{other}" in run.record]
+    return not beside or moved > _IDLE * float(np.median([np.std(run.record[name]) for name in beside]))
 
 
 @dataclass(frozen=True, eq=False)

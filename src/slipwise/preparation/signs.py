@@ -32,6 +32,8 @@ _SLOW = 12.0
 _FAST = 0.2
 #: Accelerations that leave more than this part of the slip's own say nothing of signs [1].
 _UNTIED = 0.5
+#: An acceleration that is in the slip by less than this part of the other one has no sign there [1].
+_NOT_THERE = 0.3
 #: A vertical motion must stand above its noise by this factor to say anything.
 _STRONG = 3.0
 
@@ -111,6 +113,8 @@ def _accelerations(record: Record) -> Iterable[tuple[str, float]]:
         own, other = np.linalg.lstsq(both, bend, rcond=None)[0]
         if float(np.sum((bend - both @ [own, other]) ** 2)) > _UNTIED * float(np.sum(bend**2)):
             continue  # the girder hardly slides
+        if min(abs(own), abs(other)) < _NOT_THERE * max(abs(own), abs(other)):
+            continue  # a displacement in space or of something else, in which one of the two is not
         wrong = {(False, False): names[0], (False, True): names[1], (True, False): names[2]}.get((own > 0, other > 0))
         yield from ((name, -1.0 if name == wrong else 1.0) for name in names)
 

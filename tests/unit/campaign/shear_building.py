@@ -16,7 +16,7 @@ STEP, SAMPLES = 0.005, 4000
 
 @dataclass(frozen=True)
 class Shaken:
-    """One run, each (n,): absolute accelerations of table, base and floors, and displacements of the table and from it."""
+    """One run, each (n,): absolute accelerations, the table's displacement, and displacements from the table."""
 
     time: NDArray[np.float64]
     table: NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""`slipwise init` where no force was measured: the levels of a structure are told by what drives and by what answers."""
+"""`slipwise init` where no force was measured: levels of a structure are told by what drives and by what answers."""
 
 import tomllib
 from pathlib import Path

@@ -25,6 +25,7 @@ COLUMN = '[columns]\n"slip_x [mm]" = '
         ('[logger]\nlowpass = "80 Hz"\nphase = "casual"', RUNS, "did you mean causal"),
         (COLUMN + '{channel = "slip", unit = "mm"}', RUNS, "did you mean .*slip_x"),
         (COLUMN + '{chanel = "slip_x", unit = "mm"}', RUNS, "did you mean channel"),
+        ("", RUNS + '[run.columns]\n"slip_x [mm]" = {channel = "slip", unit = "mm"}', "did you mean .*slip_x"),
     ],
 )
 def test_a_name_that_does_not_exist_is_answered_with_the_nearest(campaign, more, runs, message):
@@ -49,6 +50,7 @@ def test_a_name_that_does_not_exist_is_answered_with_the_nearest(campaign, more,
         ("", RUNS + 'rest_before = "-1 s"', SettingError, "cannot be below zero"),
         ("", "[run]\n" + 'file = "one.csv"', InputError, "double brackets"),
         ("", "", InputError, "'run' is missing"),
+        ("", RUNS + 'columns = "slip_x"', InputError, r"\[run.columns\] of .* number 2 .* must be a table"),
         ("[columns", RUNS, InputError, "not valid TOML"),
     ],
 )
@@ -67,3 +69,10 @@ def test_campaign_toml_may_carry_a_byte_order_mark(campaign):
     path = folder / "campaign.toml"
     path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
     assert load_campaign(folder).name == "slider"
+
+
+def test_columns_of_a_run_count_for_that_run_alone_and_take_the_place_of_those_of_all(campaign):
+    own = '[run.columns]\n"slip_x [mm]" = {channel = "slip_x", unit = "mm", sign = -1}\n'
+    usual, turned = (load_campaign(campaign(runs=runs)).runs for runs in (RUNS, RUNS + own))
+    assert (turned[0].record["slip_x"] == usual[0].record["slip_x"]).all()
+    assert (turned[1].record["slip_x"] == -usual[1].record["slip_x"]).all()

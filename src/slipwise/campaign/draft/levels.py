@@ -200,7 +200,8 @@ def _displacements(
     names = [f"{_place(place)}_d{axis}" for place in range(len(order.levels))]
     places = {i: place for place, i in enumerate(order.levels)}
     table = names[0] in known or any(s and s.plus == order.levels[0] and s.minus is None for s in found.values())
-    for column in sorted(lengths, key=lambda c: -(found[c.header].agreement if found[c.header] else 0.0)):
+    agreement = {header: source.agreement if source else 0.0 for header, source in found.items()}
+    for column in sorted(lengths, key=lambda c: -agreement[c.header]):
         source = found[column.header]
         if source is None:
             yield column, None, "it is the double integral of no acceleration here, and of no difference of two"

@@ -28,18 +28,16 @@ def structure_draft(levels: LevelOrder) -> str:
     carried = isolators.above * _SOME_MASS
     period = 1.0 / isolators.frequency if isolators.frequency else 1.0 / _SOME_ISOLATOR
     lines = [
-        "# Drafted: a structure on isolators, whose accelerations alone were measured. Lines with `decide` need your eyes.",
-        "# Motions tell no masses: those of all levels are ASSUMED to be equal. Replace them: every force is in their ratio.",
-        'friction = "none"   # decide: no column holds a force, and nothing shows pads that slide; leave it out if they do',
+        "# Drafted: a structure on isolators of which no force was measured. Lines with `decide` need your eyes.",
+        "# Motions tell no masses: all levels are ASSUMED to be as heavy. Replace that: forces scale with them.",
+        'friction = "none"   # decide: no pad shows a force: isolators that do not slide; else leave it out',
         f"mass = {mass}   # decide: assumed: of the base above the isolators",
         'box = ["4 m", "3 m", "0.5 m"]   # decide: the base along x (shaking), y and z: its moments of inertia',
         'centre_height = "0.4 m"   # decide: of its centre of gravity above the isolators',
-        'pad = { radius = "100 mm", stiffness = "'
-        f'{_steel(carried):.3g} kN/mm" }}   # decide: what an isolator carries upright; what a pad says itself counts',
+        f'pad = {{ radius = "100 mm", stiffness = "{_upright(carried):.3g} kN/mm" }}   # decide: upright',
         "[pads]   # decide: places of the isolators from the middle of the table, x along the shaking",
         *(f'{pad} = {{ x = "{x:g} m", y = "{y:g} m" }}' for pad, (x, y) in _PLACES.items()),
-        f"[buffers]   # decide: what isolates, each a quarter: {period:.3g} s and {isolators.critical:.0%} of critical with "
-        "these masses",
+        f"[buffers]   # decide: what isolates, each a quarter: {period:.3g} s, {isolators.critical:.0%} of critical",
     ]
     for number, (x, y) in enumerate(_PLACES.values(), 1):
         lines.append(
@@ -52,17 +50,17 @@ def structure_draft(levels: LevelOrder) -> str:
             "[[storeys]]",
             f"mass = {mass}   # decide: assumed: as heavy as every other level",
             f'z = "{number * _SOME_HEIGHT:g} m"   # decide: above the isolators',
-            f'stiffness = "{found / 1e6:.4g} kN/mm"   # decide: as its drift follows the inertia above, with these masses',
+            f'stiffness = "{found / 1e6:.4g} kN/mm"   # decide: as its drift follows the inertia above',
             f'damping = "{damping / 1e3:.4g} kN*s/m"   # decide: likewise',
         ]
     return "\n".join(lines) + "\n"
 
 
-def _stiffness(over_mass: float, usual: float, above: int) -> float:
+def _stiffness(over_mass: float, usual: float, above: float) -> float:
     """Return a stiffness [N/m] of what was found over the mass of a level [1/s^2]."""
     return _SOME_MASS * (over_mass or above * (2.0 * np.pi * usual) ** 2)
 
 
-def _steel(carried: float) -> float:
+def _upright(carried: float) -> float:
     """Return the upright stiffness [kN/mm] of one of four isolators that sag by a millimetre under a weight [kg]."""
     return carried * GRAVITY / len(_PLACES) / 1e-3 / 1e6
