@@ -4,6 +4,8 @@ import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
+import numpy as np
+
 from slipwise.campaign import Campaign, load_campaign
 from slipwise.channels import channel, channels_like, channels_of
 from slipwise.effects import Effect, catalogue
@@ -25,6 +27,8 @@ from slipwise.rig import Specimen, load_specimen, storey_names
 
 #: Sets of gauges beside the planned one in which chances are shown.
 _MOST_ADDED = 3
+#: What a replay of a run is driven by: limits of materiality are those of the motions as planned.
+_DRIVING = ("table_ax", "table_az")
 #: What changes how every relation is judged once it is recorded: chances are given with it only where it is planned.
 _APART = frozenset({"yaw", "slip_y", "girder_ay", "table_ay"})
 
@@ -101,6 +105,11 @@ def plan(
         )
     else:
         chain = make_sensors(campaign, rate, corner)
+        if "table_az" not in used and any(np.any(motion.acceleration[:, 2]) for motion in asked.values()):
+            notes.append(
+                "The motions shake vertically, and table_az is not planned: without it a diagnosis replays a table "
+                "that stays level, and takes what needs vertical motion for small."
+            )
         made, sets, ranked = _with_chances(start, asked, sets, used, chain, campaign, untestable, tell)
     tell("done", 1.0)
     return PlannedTest(
@@ -238,7 +247,7 @@ def _with_chances(
 ) -> tuple[PlannedRuns, list[GaugeSet], tuple[RankedMotion, ...]]:
     """Return the runs that were replayed, the sets with their chances, and the motions ranked by the first that has."""
     wanted = {c for one in sets for c in one.channels}
-    channels = [c for c in dict.fromkeys([*used, *sorted(wanted)]) if c in used or not _is_apart(c)]
+    channels = [c for c in dict.fromkeys([*used, *sorted(wanted), *_DRIVING]) if c in used or not _is_apart(c)]
     tell("replaying the motions", 0.02)
     made = replay_planned(model, motions, channels, sensors, pattern)
     try:

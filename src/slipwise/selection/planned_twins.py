@@ -29,8 +29,8 @@ from slipwise.selection.statistics import Statistics, compute_left_by_base
 
 #: Least eigenvalue of products of columns, of their largest: below it is round-off [1].
 _ROUND_OFF = 1e-12
-#: By how much the limits of materiality of a rig as built and of its model differ: standard deviation, of rigs whose
-#: mass, law and springs are some percent off [logarithm].
+#: By how much the limits of materiality of a rig as built and of its model differ: standard deviation, of five rigs of
+#: the bench whose mass, law and springs are some percent off; median of 25 effects 0.08, largest 0.33 [logarithm].
 _RIG_AS_BUILT = 0.1
 #: A model is taken to be better with an effect that is there by so many standard errors [1].
 _BEYOND_DOUBT = 10.0
