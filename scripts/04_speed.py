@@ -134,7 +134,7 @@ def main() -> None:
     print(f"MuJoCo {mujoco.__version__}, step {DT * 1e3:g} ms, {steps} steps, medians of {turns} turns")
     for name, value in table.items():
         if np.isnan(value):
-            print(f"{name:40s}  not there")
+            print(f"{name:40s}  not installed")
             continue
         ratio = statistics.median(a / b for a, b in zip(times[name], bare, strict=True))
         print(f"{name:40s} {value:8.2f} us a step  {ratio:6.3f} of the bare step")
