@@ -7,11 +7,12 @@ to be installed, one of its sliders on the same motion stands beside them.
 """
 
 import argparse
-import importlib.util
+import importlib
 import statistics
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -71,10 +72,10 @@ class Rigged:
 
 def opensees(control: np.ndarray) -> float:
     """One flat slider in OpenSeesPy under the same motion, in microseconds per step; NaN where it is not installed."""
-    if importlib.util.find_spec("openseespy") is None:
+    try:
+        ops: Any = importlib.import_module("openseespy.opensees")
+    except (ImportError, RuntimeError):  # not there, or without the system library that it needs
         return float("nan")
-    import openseespy.opensees as ops  # pyright: ignore[reportMissingImports]
-
     ops.wipe()
     ops.model("basic", "-ndm", 2, "-ndf", 3)
     ops.node(1, 0.0, 0.0)

@@ -35,8 +35,8 @@ def consequence_figure(found: Consequence, *, narrow: bool = False) -> Figure:
             (one.with_named, _WITH, f"with {names}", "-"),
         ):
             shown = np.sort(values) * convert(factor, one.response.unit, unit)
-            share = (np.arange(len(shown)) + 0.5) / len(shown)
-            axes.step(shown, 100.0 * share, where="post", color=colour, linewidth=1.8, linestyle=line, label=label)
+            share = np.linspace(0.0, 100.0, len(shown))  # as quantiles are counted: on straight lines between values
+            axes.plot(shown, share, color=colour, linewidth=1.8, linestyle=line, label=label)
             marks.append((float(np.quantile(shown, OF_THE_SENTENCE)), colour))
         level = 100.0 * OF_THE_SENTENCE
         axes.axhline(level, color=INK, linewidth=0.6, linestyle=(0, (1, 2)))

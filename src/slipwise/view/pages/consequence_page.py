@@ -12,9 +12,10 @@ from slipwise.view.words.numbers import counted
 def consequence_page(found: Consequence) -> str:
     """Make the text of one HTML file that needs nothing else."""
     names = " and ".join(found.named)
+    count = counted(found.earthquakes, "earthquake")
     words = (
-        f"{counted(found.earthquakes, 'earthquake')} on {found.rig}, with {names} in the model and without; "
-        f"both models meet the same ones."
+        f"{count[0].upper()}{count[1:]} on {found.rig}, with {names} in the model and without; both models meet the "
+        "same ones."
     )
     caption = (
         "Share of the earthquakes whose peak slip stays below. Solid: with what was named; dashed: without it; "
