@@ -40,11 +40,10 @@ MODELS = {
 @pytest.fixture(scope="module")
 def campaign(tmp_path_factory):
     """The campaign, its diagnosis, and the folder in which each model's predictions lie."""
-    rng = np.random.default_rng(5)
-    drawn = draw_motions(NATURAL["bridge1"], RIG, rng, False)
+    drawn = draw_motions(NATURAL["bridge1"], RIG, RNG, False)
     motions = {name: drawn[name] for name, _ in ROLES}
     folder = tmp_path_factory.mktemp("models")
-    recorded = {n: measure(simulate(RIG, m), USUAL, Logger(), [], rng, i) for i, (n, m) in enumerate(motions.items())}
+    recorded = {n: measure(simulate(RIG, m), USUAL, Logger(), [], RNG, i) for i, (n, m) in enumerate(motions.items())}
     write_campaign(folder / "measured", "bridge1", Logger(), recorded, ROLES)
     for model, (rig, *_) in MODELS.items():
         (folder / model).mkdir()

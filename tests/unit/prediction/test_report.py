@@ -39,8 +39,8 @@ def test_a_model_that_lacks_nothing_and_whose_numbers_are_right_is_said_to_be_so
 def test_what_it_lacks_and_what_is_off_stand_in_the_sentence_with_the_fall_of_its_error():
     wrong = replace(RIGHT, lacks={"speed dependence": "why"}, numbers=(MASS,), errors=FAR)
     assert wrong.sentence == (
-        "It lacks speed dependence, and the mass of the girder is off; its error of 28 noise floors becomes 18 with the "
-        "best numbers that it can have, and 1 with what it lacks."
+        "It lacks speed dependence, and the mass of the girder is off; its error of 28 noise floors becomes 18 with "
+        "the best numbers that it can have, and 1 with what it lacks."
     )
     assert wrong.as_json()["off"] == ["rig.mass"]
 

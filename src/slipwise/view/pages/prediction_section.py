@@ -20,7 +20,7 @@ def prediction_section(found: PredictionReport) -> Section:
     runs = "As predicted and as measured, with no fit at all; errors are rms, over the rms of the measurement."
     read = f"The prediction by itself, read as if this campaign's gauges had recorded it: {found.read.sentence}"
     return Section(
-        "What it is, and what it lacks",
+        "The model, and what it lacks",
         [
             *(paragraph(f"{question} {answer}") for question, answer in prediction_answers(found)),
             table(error_rows(found), "Error of every balance of the rig, on measured states, in noise floors"),
@@ -33,8 +33,8 @@ def prediction_section(found: PredictionReport) -> Section:
 
 def prediction_verdict(found: PredictionReport) -> Html:
     """Make the box that says what is wrong with the model, and how its error falls."""
-    facts = {f"error {rung} [noise floors]": f"{error:.3g}" for rung, error in found.worst.items()}
-    return verdict(*_headline(found), facts)
+    rungs = list(found.worst.items())[: None if found.lacks else 2]  # where nothing is lacking, nothing is added
+    return verdict(*_headline(found), {f"error {rung} [noise floors]": f"{error:.3g}" for rung, error in rungs})
 
 
 def _headline(found: PredictionReport) -> tuple[str, str, Tone]:
