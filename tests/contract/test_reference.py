@@ -59,7 +59,7 @@ def run_examples(wanted: set[bool]) -> None:
 
 def test_the_examples_run_one_after_another(campaign_folder: None, capsys: pytest.CaptureFixture[str]) -> None:
     run_examples({False})
-    assert "did you mean bridge1" in capsys.readouterr().out
+    assert "did you mean bridge2 or bridge1" in capsys.readouterr().out
 
 
 @pytest.mark.long
