@@ -4,6 +4,7 @@
 """
 
 # ruff: noqa: E402, B018, F811
+# pyright: reportUnusedExpression=false
 # %% base_model
 import slipwise as sw
 
