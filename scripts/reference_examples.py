@@ -40,7 +40,7 @@ sw.write_record(answer.record, Path("record.parquet"))
 sw.read_record("record.parquet").time[-1]  # s
 # %% SlipwiseError
 try:
-    sw.base_model("bridge9")
+    sw.base_model("brigde1")
 except sw.SlipwiseError as error:
     print(error)  # what was given, what is possible, what to do
 # %% SimulationDiverged
@@ -91,6 +91,28 @@ sw.paper.PaperSettings().members
 one_process_at_a_time = sw.executors.ONE_AT_A_TIME
 # %% workbench
 open_page = sw.workbench.serve  # open_page("my_campaign") serves a local page until Ctrl-C
+# %% plan
+planned = sw.plan("bridge1", gauges=["slip_x", "girder_ax", "pad_*_N", "pad_*_Fx"])  # no motions: balances alone
+# %% PlannedTest
+planned.sentence, planned.as_json()["sets"][0]
+# %% export_sap2000
+links = sw.export_sap2000("bridge1", motion=shaking)
+# %% LinkProperties
+links.as_json()["friction"]
+# %% export_opensees
+script = sw.export_opensees("bridge1", shaking, "rig.py", run=False)  # run=True where OpenSeesPy is installed
+# %% OpenSeesExport
+script.sentence
+# %% watch, News
+day = sw.watch("my_campaign", "watch.json")  # `for news in day:` goes on until it is interrupted
+# %% consequence (minutes)
+meant = sw.consequence(stiffer, ["quake:seed=1", "quake:seed=2"], "meant", without=["buffer_hardening"], workers=1)
+# %% Consequence (minutes)
+meant.sentence
+# %% judge_prediction, PredictionReport (minutes)
+shutil.copytree("my_campaign", "of_the_office")  # stands for the same runs as a program predicted them
+judged = sw.judge_prediction(campaign, "of_the_office")
+judged.sentence
 # %% compare (minutes)
 comparison = sw.compare(campaign, system=False)
 # %% Comparison (minutes)

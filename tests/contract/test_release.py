@@ -25,6 +25,12 @@ WRITERS = {
     "`bench.json`": "cli/bench.py",
     "`ensemble.json`": "view/words/ensemble_tables.py",
     "`paper.json`": "studies/paper/reenact.py",
+    "`plan.json`": "planning/result.py",
+    "`export opensees --json`": "export/opensees.py",
+    "`export sap2000 --json`": "export/sap2000.py",
+    "`consequence.json`": "studies/consequence/result.py",
+    "`predicted.json`": "prediction/result.py",
+    "`watch.json`": "monitoring/step.py",
     "a session's file": "session/schema.py",
 }
 #: Written by the session's schema, in another file.

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import counting, out_folder, print_json, say
+from slipwise.cli.console import counting, out_folder, print_json, say, say_next
 from slipwise.cli.options import Allowed, Figures, Json, Trusted
 from slipwise.cli.workers import Cluster, Workers, chosen_executor
 
@@ -87,3 +87,4 @@ def consequence(
     say(found.sentence)
     for file in (*files, *more, found.path):
         say(f"wrote {file}")
+    say_next(f"open {page}")

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import print_json, say, steps
+from slipwise.cli.console import print_json, say, say_next, steps
 from slipwise.cli.options import Allowed, Json, Trusted
 from slipwise.errors import SettingError, unknown_name
 
@@ -74,6 +74,7 @@ def _script(model: "sw.Model", shaking: "sw.TableMotion", out: Path, run: bool, 
     say(found.sentence)
     for path in (found.script, found.data, file):
         say(f"wrote {path}")
+    say_next(f"`python {found.script}` where OpenSeesPy is installed")
 
 
 def _links(model: "sw.Model", campaign: Path | None, shaking: "sw.TableMotion | None", out: Path, json: bool) -> None:
@@ -96,6 +97,7 @@ def _links(model: "sw.Model", campaign: Path | None, shaking: "sw.TableMotion | 
         say(f"not in the links: {words}")
     for path in files:
         say(f"wrote {path}")
+    say_next("give each link of the office's model its row")
 
 
 def _model(given: str, law: str, trust: bool, allowed: list[str] | None) -> "sw.Model":

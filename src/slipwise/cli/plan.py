@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import out_folder, print_json, say, steps
+from slipwise.cli.console import out_folder, print_json, say, say_next, steps
 from slipwise.cli.options import Figures, Json, ModelFile, Own, Trusted, own_effects, start_model
 
 
@@ -67,6 +67,7 @@ def plan(
     _tell(found)
     for path in files:
         say(f"wrote {path}")
+    say_next(f"open {page}", "record the motions, and `slipwise init` their folder")
 
 
 def _tell(found: "sw.PlannedTest") -> None:

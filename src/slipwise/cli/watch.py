@@ -2,12 +2,13 @@
 
 from contextlib import suppress
 from pathlib import Path
+from shlex import quote
 from typing import Annotated
 
 import typer
 
 import slipwise as sw
-from slipwise.cli.console import out_folder, say, steps
+from slipwise.cli.console import out_folder, say, say_next, steps
 from slipwise.cli.diagnosis_files import write_diagnosis
 from slipwise.cli.options import CampaignFolder, ModelFile, Own, Trusted, own_effects
 from slipwise.errors import OutputError
@@ -65,3 +66,4 @@ def watch(
         if last is not None:
             with suppress(OutputError):
                 save_page(watch_page(name, last.steps, last.waiting, ended=True), page)
+            say_next(f"open {page}", f"`slipwise watch {quote(str(campaign))} --out {quote(str(out))}` goes on")
