@@ -98,7 +98,7 @@ planned.sentence, planned.as_json()["sets"][0]
 # %% export_sap2000
 links = sw.export_sap2000("bridge1", motion=shaking)
 # %% LinkProperties
-links.as_json()["friction"]
+links.as_json()["sliders"][0]
 # %% export_opensees
 script = sw.export_opensees("bridge1", shaking, "rig.py", run=False)  # run=True where OpenSeesPy is installed
 # %% OpenSeesExport
