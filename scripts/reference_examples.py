@@ -40,7 +40,7 @@ sw.write_record(answer.record, Path("record.parquet"))
 sw.read_record("record.parquet").time[-1]  # s
 # %% SlipwiseError
 try:
-    sw.base_model("brigde1")
+    sw.base_model("bridge9")
 except sw.SlipwiseError as error:
     print(error)  # what was given, what is possible, what to do
 # %% SimulationDiverged
