@@ -1,7 +1,7 @@
 """Hold the limits of what is not named against true sizes, and twins against replays of the same model.
 
-    python scripts/21_limits.py --out out/families --only usual_dirt small_effects
-    python scripts/21_limits.py --campaign out/families/campaigns/uneven_seating-ode-710000 --twins heating run_in
+    python scripts/count_limits.py --out out/families --only usual_dirt small_effects
+    python scripts/count_limits.py --campaign out/families/campaigns/uneven_seating-ode-710000 --twins heating run_in
 
 The first diagnoses campaigns of `scripts/16_families.py` and counts how many true sizes of effects that were not named
 lie below their limits. The second fits the base model to a campaign, replays its runs with one effect at the limit of
