@@ -32,6 +32,7 @@ from slipwise.selection.jacobian_memory import complete_jacobian
 from slipwise.selection.search_state import Search
 from slipwise.selection.statistics import compute_left_by_base
 from slipwise.selection.units import compute_moved_by_sizes
+from slipwise.short_repr import short_repr
 
 #: Length of a stretch of time that is shown as a contradiction [time scale of the rig], and how many are.
 _STRETCH, _INSTANTS = 0.25, 3
@@ -62,6 +63,7 @@ class Errors:
     beside: float
 
 
+@short_repr
 @dataclass(frozen=True)
 class Instant:
     """A stretch of time that contradicts an effect.
@@ -95,6 +97,7 @@ class Instant:
     load: float
 
 
+@short_repr
 @dataclass(frozen=True)
 class WhyNot:
     """Why an effect was not named.

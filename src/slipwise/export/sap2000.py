@@ -22,6 +22,7 @@ from slipwise.motion.load import as_motion
 from slipwise.preparation.prepare import prepare
 from slipwise.record import Record
 from slipwise.rig.statics import at_rest
+from slipwise.short_repr import short_repr
 from slipwise.simulation.replay import replay
 
 #: Elastic slip before a link slides, over the largest slip [1]: stiffer ones need smaller steps than the program takes.
@@ -31,6 +32,7 @@ _PRESSURES = (0.05, 0.5, 0.95)
 SCHEMA = 1
 
 
+@short_repr
 @dataclass(frozen=True)
 class SliderLink:
     """A friction isolator.

@@ -9,11 +9,13 @@ import msgspec
 
 from slipwise.errors import InputError
 from slipwise.record import write_json
+from slipwise.short_repr import short_repr
 
 #: Of watch.json.
 SCHEMA = 1
 
 
+@short_repr
 @dataclass(frozen=True)
 class Step:
     """What was said when one or more runs had come in.

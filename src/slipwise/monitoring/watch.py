@@ -23,6 +23,7 @@ from slipwise.monitoring.gauges import compare_gauges, find_faults_of_runs
 from slipwise.monitoring.read_runs import RunReader
 from slipwise.monitoring.step import Step, load_steps, save_steps, short_verdict
 from slipwise.preparation.prepare import prepare
+from slipwise.short_repr import short_repr
 
 #: Time between two looks at the folder [s].
 _EVERY = 0.5
@@ -32,6 +33,7 @@ _LISTED = 5
 About = Literal["waiting", "runs", "gauges", "verdict", "places", "next", "broken off"]
 
 
+@short_repr
 @dataclass(frozen=True)
 class News:
     """What `watch` has to tell.

@@ -16,6 +16,7 @@ from slipwise.data_files.table import open_table
 from slipwise.errors import InputError
 from slipwise.motion.shaping import scale
 from slipwise.motion.table_motion import TableMotion
+from slipwise.short_repr import short_repr
 from slipwise.signals.oscillator import oscillator
 from slipwise.units import parse_unit
 
@@ -27,6 +28,7 @@ _MOST = 30
 _STEPS = 4.0
 
 
+@short_repr
 @dataclass(frozen=True)
 class ResponseSpectrum:
     """A spectrum of acceleration.

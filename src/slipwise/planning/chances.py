@@ -10,6 +10,7 @@ from slipwise.evidence.calibration import load_calibration
 from slipwise.planning.planned_columns import Allowed, PlannedColumns, add_motions, restrict
 from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.planned_twins import decide_twins, draw_pulls, prepare_weighing, weigh
+from slipwise.short_repr import short_repr
 
 #: Campaigns that are drawn of each effect.
 TWINS = 40
@@ -17,6 +18,7 @@ TWINS = 40
 _LISTED = 0.1
 
 
+@short_repr
 @dataclass(frozen=True)
 class Chance:
     """An effect that is there at its limit of materiality, beside trifles of everything.

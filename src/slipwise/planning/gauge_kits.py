@@ -7,11 +7,13 @@ from itertools import combinations
 from slipwise.errors import InputError
 from slipwise.planning.structure import Structure
 from slipwise.rig import Specimen, storey_names
+from slipwise.short_repr import short_repr
 
 #: Kits that are tried together where no single one separates a pair.
 _TOGETHER = 2
 
 
+@short_repr
 @dataclass(frozen=True)
 class Kit:
     """Gauges that are added together.
@@ -25,6 +27,7 @@ class Kit:
     channels: tuple[str, ...]
 
 
+@short_repr
 @dataclass(frozen=True)
 class Remedy:
     """What would separate two kinds of faults.

@@ -10,8 +10,10 @@ from slipwise.display import Drawn, Tabular
 from slipwise.planning.chances import Chance, RankedMotion
 from slipwise.planning.gauge_kits import Remedy
 from slipwise.planning.structure import Structure
+from slipwise.short_repr import short_repr
 
 
+@short_repr
 @dataclass(frozen=True)
 class GaugeSet:
     """A set of gauges, and what it shows.

@@ -16,9 +16,12 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import maximum_bipartite_matching
 
+from slipwise.short_repr import short_repr
+
 Flags = NDArray[np.bool_]
 
 
+@short_repr
 @dataclass(frozen=True)
 class Diagnosability:
     """What can be shown of faults, and told apart.

@@ -13,11 +13,13 @@ from slipwise.planning.balance_equations import BalanceEquations, list_broken, m
 from slipwise.planning.structural_analysis import Diagnosability, analyse_structure, find_overdetermined
 from slipwise.preparation.gauge_groups import find_places_of_gauges
 from slipwise.record import Record
+from slipwise.short_repr import short_repr
 
 #: What an effect needs -> the equation that must check something, or no fit looks for it.
 _CHECKED_BY = {"heave": "heave", "storeys": "storeys"}
 
 
+@short_repr
 @dataclass(frozen=True)
 class Fault:
     """What breaks one set of equations: effects that no gauge can tell apart, or whatever may be wrong with a gauge.
@@ -44,6 +46,7 @@ class Fault:
         return f"pad_?_{self.name.rpartition('_')[2]}"
 
 
+@short_repr
 @dataclass(frozen=True)
 class Structure:
     """What can be seen and told apart with some gauges.

@@ -20,6 +20,7 @@ from scipy.optimize import least_squares
 from slipwise.arrays import Array
 from slipwise.campaign import Run
 from slipwise.errors import InputError
+from slipwise.short_repr import short_repr
 
 #: Friction is looked at where a pad slides faster than this share of the run's largest speed, and is pressed by more
 #: than this share of its load at rest [1].
@@ -33,6 +34,7 @@ _FOREIGN = 0.05
 _SAMPLES = 6000
 
 
+@short_repr
 @dataclass(frozen=True)
 class Sliding:
     """Samples of sliding pads.
@@ -52,6 +54,7 @@ class Sliding:
     force: Array
 
 
+@short_repr
 @dataclass(frozen=True)
 class Family:
     """A family of laws.
@@ -75,6 +78,7 @@ class Family:
     law: Callable[[Sliding, Sequence[float]], Array]
 
 
+@short_repr
 @dataclass(frozen=True)
 class ReadLaw:
     """A family fitted to samples.

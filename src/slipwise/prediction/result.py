@@ -8,6 +8,7 @@ from slipwise.diagnosis.result import Diagnosis
 from slipwise.display import Tabular
 from slipwise.noise.level import is_at_floor
 from slipwise.prediction.friction_families import ReadLaw
+from slipwise.short_repr import short_repr
 
 #: Number of the format of predicted.json.
 SCHEMA = 1
@@ -54,6 +55,7 @@ class ComparedNumber:
         return _CALLED.get(self.key, f"{parameter} of {effect}" if parameter else self.key)
 
 
+@short_repr
 @dataclass(frozen=True)
 class ComparedRun:
     """A run as it was predicted beside the measurement.

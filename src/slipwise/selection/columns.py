@@ -18,6 +18,7 @@ from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.initial_grid import is_lag, shapes, strengths, two_sided
 from slipwise.selection.sensitivities import compute_change, compute_stacked_with, small, typical
+from slipwise.short_repr import short_repr
 
 FloatArray = NDArray[np.float32]
 
@@ -30,6 +31,7 @@ _ROUND_OFF = 1e-9
 OF_MODEL = -2
 
 
+@short_repr
 @dataclass(frozen=True)
 class CandidateColumn:
     """One strength of a candidate at one form.

@@ -27,6 +27,7 @@ from slipwise.arrays import Array
 from slipwise.selection.columns import OF_MODEL, CandidateColumn
 from slipwise.selection.sampler import sample_places
 from slipwise.selection.statistics import Statistics, compute_left_by_base
+from slipwise.short_repr import short_repr
 
 Ints = NDArray[np.int64]
 
@@ -56,6 +57,7 @@ class Prior:
     places: int = 12
 
 
+@short_repr
 @dataclass(frozen=True)
 class Posterior:
     """Samples of what matters.

@@ -24,6 +24,7 @@ from slipwise.selection.proposals import LIKELY, compute_chances_of_large
 from slipwise.selection.statistics import compute_left_by_base
 from slipwise.selection.twins import compute_posterior_of_twin, make_twin
 from slipwise.selection.weighed_model import DRAWS, WeighedModel
+from slipwise.short_repr import short_repr
 
 #: Twins of each effect.
 TWINS = 16
@@ -31,6 +32,7 @@ TWINS = 16
 _MOST = 12
 
 
+@short_repr
 @dataclass(frozen=True)
 class EffectPower:
     """What would be said of an effect at the limit of what matters.

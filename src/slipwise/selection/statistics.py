@@ -9,11 +9,13 @@ from numpy.typing import NDArray
 from slipwise.arrays import Array
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import CandidateColumn
+from slipwise.short_repr import short_repr
 
 #: Rows whose products are taken at once: memory.
 _AT_ONCE = 20_000
 
 
+@short_repr
 @dataclass(frozen=True)
 class Statistics:
     """Products by relation; base numbers stand before candidates' columns.

@@ -29,8 +29,10 @@ from slipwise.selection.importance import (
 )
 from slipwise.selection.initial_grid import shapes, strengths
 from slipwise.selection.sensitivities import small
+from slipwise.short_repr import short_repr
 
 
+@short_repr
 @dataclass(frozen=True)
 class Moved:
     """What some size of an effect moves.

@@ -20,6 +20,7 @@ from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.initial_grid import strengths
 from slipwise.selection.posterior import Prior, list_trifles, make_normal_system
 from slipwise.selection.weighed_model import WeighedModel
+from slipwise.short_repr import short_repr
 
 #: Chance that a size lies below its limit [1].
 CHANCE = 0.95
@@ -27,6 +28,7 @@ CHANCE = 0.95
 _SAYS_NOTHING = 0.8
 
 
+@short_repr
 @dataclass(frozen=True)
 class UpperLimit:
     """The largest size that an effect can have.

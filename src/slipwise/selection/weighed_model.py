@@ -16,11 +16,13 @@ from slipwise.selection.linearisation import Linearisation
 from slipwise.selection.posterior import Posterior
 from slipwise.selection.statistics import Statistics
 from slipwise.selection.units import Moved
+from slipwise.short_repr import short_repr
 
 #: Stretches of a series whose residual changes sign together, and how many times noise is drawn.
 _STRETCHES, DRAWS = 16, 20
 
 
+@short_repr
 @dataclass(frozen=True)
 class WeighedModel:
     """A final model with everything beside it, as products.

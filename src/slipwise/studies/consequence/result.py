@@ -10,6 +10,7 @@ import numpy as np
 from slipwise.arrays import Array
 from slipwise.display import Drawn, Tabular
 from slipwise.rig.similarity import similarity
+from slipwise.short_repr import short_repr
 from slipwise.studies.ensemble.distributions import Varied
 from slipwise.studies.ensemble.responses import Response
 
@@ -22,6 +23,7 @@ _NO_CHANGE = 0.005
 SCHEMA = 1
 
 
+@short_repr
 @dataclass(frozen=True)
 class Distribution:
     """One response over all earthquakes.

@@ -12,6 +12,7 @@ from slipwise.arrays import Array
 from slipwise.errors import SettingError, unknown_name
 from slipwise.model import Model
 from slipwise.rig.known import SPECIMEN_UNITS, better_known
+from slipwise.short_repr import short_repr
 from slipwise.units import quantity
 
 SAMPLINGS = ("sobol", "latin")
@@ -22,6 +23,7 @@ _RANGE = re.compile(r"\s*(?P<low>[-+\d.eE]*\d\.?)\s*(?P<low_unit>[^\d.+-][^.]*)?
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 
+@short_repr
 @dataclass(frozen=True)
 class Varied:
     """One number that is drawn.

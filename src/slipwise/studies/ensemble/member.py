@@ -86,6 +86,7 @@ class FileBase:
         return key_of([self.digest, contents], __name__)
 
 
+@short_repr
 @dataclass(frozen=True)
 class Shaken:
     """One member.
