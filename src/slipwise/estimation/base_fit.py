@@ -43,6 +43,8 @@ _FINAL_REFIT, _TO_WEIGH, _MUCH_LEFT = 0.1, 50.0, 5e-4
 _STICK_SHARE = 0.01
 #: A fit from elsewhere is another one if it leaves this share less of the squared residual [1].
 _BETTER = 0.01
+#: Two laws weigh alike that change the squared residual by less than this share [1].
+_WEIGHS_ALIKE = 0.1
 #: Share of the pads' squared residual that yaw must take away [1].
 _MIN_YAW_GAIN = 0.03
 
@@ -277,7 +279,7 @@ def reweigh_base_fit(base: BaseFit, found: Objective, values: Mapping[str, float
     """
     weighed = found.weigh(values)
     before, after = _cost(found, values), _cost(weighed, values)
-    if abs(after - before) <= _BETTER * before:
+    if abs(after - before) <= _WEIGHS_ALIKE * before:
         return None
     objective = weighed.having(base.objective.terms)
     solution = solve(objective, base.solution.values, base.free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)

@@ -29,7 +29,7 @@ from slipwise.rig.build import largest_step
 from slipwise.short_repr import short_repr
 from slipwise.simulation.kernel.layout import buffer_memories, pad_memories
 from slipwise.simulation.predict import predictor
-from slipwise.simulation.result import Memory
+from slipwise.simulation.result import Memory, SimulationDiverged
 from slipwise.simulation.simulator import simulate
 from slipwise.simulation.step_check import warn_of_coarse_step
 
@@ -95,7 +95,7 @@ def compute_importance(final: BaseFit, terms: Sequence[Term], sizes: Sequence[In
 
     def answer(k: int) -> Answer:
         name, place = asked[k]
-        return compute_answer(models[name], final, place, replayed=free)
+        return compute_answer(models[name], final, place, replayed=free, partly=True)
 
     replies = on_every_core(answer, len(asked))
     answers = dict(zip(asked, replies, strict=True))
@@ -143,7 +143,9 @@ def is_replayable(objective: Objective, place: int) -> bool:
     return objective.specimen.free and "table_ax" in objective.run(place).record
 
 
-def compute_answer(model: Model, final: BaseFit, place: int, *, replayed: bool, rough: bool = False) -> Answer:
+def compute_answer(
+    model: Model, final: BaseFit, place: int, *, replayed: bool, rough: bool = False, partly: bool = False
+) -> Answer:
     """Return what a model answers in a run: replayed, or its pads driven with the measured load and motion.
 
     Args:
@@ -152,8 +154,12 @@ def compute_answer(model: Model, final: BaseFit, place: int, *, replayed: bool, 
         place: of the run.
         replayed: of a slider, and without the table's motion, a law can only be driven.
         rough: take twice the usual step where the pads allow it, which changes shares by some hundredths.
+        partly: take a replay that leaves every bound as far as it went, and its last sample from there on.
+
+    Raises:
+        SimulationDiverged: a replay left every bound, and `partly` was not asked for.
     """
-    return _replayed(model, final, place, rough=rough) if replayed else _driven(model, final, place)
+    return _replayed(model, final, place, rough=rough, partly=partly) if replayed else _driven(model, final, place)
 
 
 def _models(final: BaseFit, added: Mapping[str, Sequence[Term]]) -> dict[str, Model]:
@@ -173,14 +179,27 @@ def _where_most(final: BaseFit, terms: Sequence[Term]) -> int:
     return int(np.argmax(np.nan_to_num(solution.residuals.changes_by_run(there))))
 
 
-def _replayed(model: Model, final: BaseFit, place: int, *, rough: bool) -> Answer:
+def _replayed(model: Model, final: BaseFit, place: int, *, rough: bool, partly: bool) -> Answer:
     """Replay a run's measured table motion, memory of pads and buffers from the runs before."""
     run = final.objective.run(place)
     dt, motion = choose_simulation_step(run.dt), get_measured_motion(run.states)
     start, rest = compute_memory_before(model, final.objective.runs_before(place)), run.rest_before
+    steps = [dt]
     if rough and round(run.dt / dt) % 2 == 0 and 2.0 * dt <= largest_step(model.specimen):
-        dt *= 2.0
-    answer = simulate(model, resample(motion, dt).acceleration, dt=dt, output_dt=run.dt, start=start, rest=rest)
+        steps = [2.0 * dt, dt]
+    answer, channels = None, {}
+    for step in steps:
+        try:
+            shaken = resample(motion, step).acceleration
+            answer = simulate(model, shaken, dt=step, output_dt=run.dt, start=start, rest=rest)
+            channels = answer.record.channels
+            break
+        except SimulationDiverged as error:
+            if step == dt and not partly:
+                raise
+            answer = error.replay
+            channels = _as_long_as(answer.record.channels, len(run.time))
+    assert answer is not None
     if not rough:
         warn_of_coarse_step(model, answer, motion.title)
     responses = {
@@ -188,7 +207,12 @@ def _replayed(model: Model, final: BaseFit, place: int, *, rough: bool) -> Answe
         "energy": sum(answer.pad_energy.values()),
         "largest_load": max(high for _, high in answer.load_range.values()),
     }
-    return Answer(responses, answer.record.channels)
+    return Answer(responses, channels)
+
+
+def _as_long_as(channels: Mapping[str, Array], count: int) -> dict[str, Array]:
+    """Return channels (m,) of a replay that was stopped as channels (count,) that stay as they were last."""
+    return {name: np.pad(x, (0, max(count - len(x), 0)), mode="edge")[:count] for name, x in channels.items()}
 
 
 def compute_memory_before(model: Model, runs: Sequence[FitRun]) -> Memory:

@@ -65,40 +65,69 @@ def select_effects(
     """
     tell = progress or (lambda what, share: None)
     own, base = tuple(own), fit_prepared(prepared, model)
-    state = _select(prepared, base, own, tell)
+    proposed = _propose(prepared, base, own, tell)
+    for _ in range(0 if base.objective.balanced else _WEIGHED):
+        found = proposed.found
+        weighed = reweigh_base_fit(base, found.objective, found.solution.values) if found else None
+        if weighed is None:
+            break
+        base, proposed = weighed, _propose(prepared, weighed, own, tell)
+    state = _judge(base, proposed, tell)
     # what an effect seems to explain may be a local minimum that the base fit has missed
     better = restart_base_fit(base, state.best.solution.values) if state.best.terms else None
     if better is not None:
-        base, state = better, _select(prepared, better, own, tell)
-    for _ in range(0 if base.objective.balanced else _WEIGHED):
-        best = state.best
-        weighed = reweigh_base_fit(base, best.objective, best.solution.values) if best.terms else None
-        if weighed is None:
-            break
-        base, state = weighed, _select(prepared, weighed, own, tell)
+        base, state = better, _judge(better, _propose(prepared, better, own, tell), tell)
     tell("done", 1.0)
     return SelectionResult(prepared, base, state)
 
 
-def _select(prepared: Prepared, base: BaseFit, own: tuple[Effect, ...], tell: Callable[[str, float], None]) -> Search:
-    """Find what a base fit lacks."""
+@dataclass(frozen=True)
+class _Proposed:
+    """What the posterior proposes of the candidates of a base fit.
+
+    Attributes:
+        candidates: that compete.
+        cannot: effect -> why it could not compete.
+        model: of the posterior.
+        found: all that is likely, refitted together; None where nothing is.
+    """
+
+    candidates: list[Term]
+    cannot: dict[str, str]
+    model: ProposedModel
+    found: Hypothesis | None
+
+
+def _propose(
+    prepared: Prepared, base: BaseFit, own: tuple[Effect, ...], tell: Callable[[str, float], None]
+) -> _Proposed:
+    """Return what is likely beside a base fit, refitted together."""
     candidates, cannot = list_candidates(base, own)
     tell("holding everything against the residual", 0.15)
     proposal = propose(base, candidates, prepared.recorded.materiality)
+    starts = list_likely(proposal.linearisation, candidates, proposal.posterior)
+    tell("refitting", 0.7)
+    found: Hypothesis | None = None
+    if starts:
+        chosen = [t for t in candidates if t.label in starts]
+        before = proposal.hypothesis
+        contained = bool(before.terms) and {t.label for t in before.terms} <= starts.keys()
+        found = polish(refit(base, chosen, starts, before if contained else None))
+    return _Proposed(candidates, cannot, proposal, found)
+
+
+def _judge(base: BaseFit, proposed: _Proposed, tell: Callable[[str, float], None]) -> Search:
+    """Judge what is proposed by refits: with and without each, and with what may stand for it."""
+    candidates, proposal, found = proposed.candidates, proposed.model, proposed.found
     origin = make_base_hypothesis(base)
     alone = _explain_alone(proposal, candidates)
     unexplained = compute_unexplained(proposal)
     weighed = keep_weighed_model(
         proposal.linearisation, proposal.posterior, proposal.units, frozenset(list_exclusions(candidates))
     )
-    state = Search(base, cannot, candidates, (), (origin,), alone, _inclusions(proposal), unexplained, weighed=weighed)
-    starts = list_likely(proposal.linearisation, candidates, proposal.posterior)
-    tell("refitting", 0.7)
-    if starts:
-        chosen = [t for t in candidates if t.label in starts]
-        before = proposal.hypothesis
-        contained = bool(before.terms) and {t.label for t in before.terms} <= starts.keys()
-        found = polish(refit(base, chosen, starts, before if contained else None))
+    inclusions = _inclusions(proposal)
+    state = Search(base, proposed.cannot, candidates, (), (origin,), alone, inclusions, unexplained, weighed=weighed)
+    if found is not None:
         state = replace(state, tried=(found,))
         state, found = _with_whole_numbers(state, found)
         state, found = _without_needless_lags(state, found)

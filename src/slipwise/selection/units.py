@@ -77,7 +77,7 @@ def compute_moved_by_sizes(
         most: as of `compute_units`.
     """
     whole, places = build_answering_model(here), [choose_shown(here), *dict.fromkeys(most.values())]
-    bare = {place: _answer(whole, here, place) for place in dict.fromkeys(places)}
+    bare = {place: _answer(whole, here, place, partly=True) for place in dict.fromkeys(places)}
 
     def moved(k: int) -> Moved:
         term, values = asked[k]
@@ -103,7 +103,7 @@ def compute_sizes_in_place(
     """
     values, places = here.solution.values, list(dict.fromkeys([choose_shown(here), here.objective.fitted[0]]))
     whole = build_answering_model(here)
-    bare = {place: _answer(whole, here, place) for place in places}
+    bare = {place: _answer(whole, here, place, partly=True) for place in places}
 
     def size(k: int) -> float:
         term = terms[k]
@@ -132,7 +132,7 @@ def compute_units_of_fits(
     if not whole:
         return {}
     place = choose_shown(here)
-    without = {place: _answer(build_answering_model(here), here, place)}
+    without = {place: _answer(build_answering_model(here), here, place, partly=True)}
 
     def moved(k: int) -> Moved:
         [term], fit = whole[k].terms, make_fit(here, whole[k], with_slopes=False)
@@ -142,14 +142,15 @@ def compute_units_of_fits(
         if term.effect.replaces:
             return _compare(here, model, without, [place], limits)
         bare = model.without(*(u.label for u in term.uses(fit.solution.values)))
-        return _compare(fit, bare, {place: _answer(model, fit, place)}, [place], limits)
+        return _compare(fit, bare, {place: _answer(model, fit, place, partly=True)}, [place], limits)
 
     answers = on_every_core(moved, len(whole))
     return {(h.terms[0].label, ""): x for h, x in zip(whole, answers, strict=True)}
 
 
-def _answer(model: Model, here: BaseFit, place: int) -> Answer:
-    return compute_answer(model, here, place, replayed=is_replayable(here.objective, place), rough=True)
+def _answer(model: Model, here: BaseFit, place: int, *, partly: bool = False) -> Answer:
+    replayed = is_replayable(here.objective, place)
+    return compute_answer(model, here, place, replayed=replayed, rough=True, partly=partly)
 
 
 def _having(model: Model, term: Term, values: Mapping[str, float]) -> Model:
