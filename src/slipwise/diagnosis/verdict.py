@@ -14,7 +14,7 @@ from slipwise.diagnosis.unknown_surface import ResidualSurface, leftover, struct
 from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
 from slipwise.estimation.objective import Objective
 from slipwise.evidence.acceptance import LEAST
-from slipwise.evidence.calibration import compute_log_odds, load_calibration
+from slipwise.evidence.calibration import load_calibration
 from slipwise.evidence.decision import EVEN_ODDS, decide, is_left
 from slipwise.evidence.score import compute_relative_drop
 from slipwise.instruments.suspects import effect_of
@@ -30,8 +30,6 @@ _UNCONFIRMED = 0.9
 _CARRIED_OVER = 0.5
 #: Mean squared residual of a held-out run over that of the motions left out, up to which they are left alike [1].
 _AS_LEFT_OUT = 1.5
-#: A posterior of some hundred draws says no more of an effect than these log-odds.
-_SUREST_ODDS = 6.0
 #: Error of a model in floors, and over that of the base model [1]: above both much is left unexplained.
 _MUCH = (3.0, 0.05)
 
@@ -148,7 +146,7 @@ def evidence_of(finding: EffectFinding) -> dict[str, float]:
         "bound": float(bool(finding.at_bound)),
         "gauge": float(finding.is_gauge),
         "stays": finding.stays,
-        "inclusion": float(np.clip(compute_log_odds(finding.inclusion.matters), -_SUREST_ODDS, _SUREST_ODDS)),
+        "inclusion": finding.inclusion.log_odds,
         "spread": min(finding.inclusion.spread, 1.0),
         "seen": float(np.log(max(finding.inclusion.seen, 1e-2))),
         "limits": float(np.log(max(finding.inclusion.size, 1e-2))),

@@ -30,7 +30,6 @@ from slipwise.selection.hypothesis_fit import make_fit
 from slipwise.selection.initial_grid import strengths
 from slipwise.selection.jacobian_memory import complete_jacobian
 from slipwise.selection.search_state import Search
-from slipwise.selection.statistics import compute_left_by_base
 from slipwise.selection.units import compute_moved_by_sizes
 from slipwise.short_repr import short_repr
 
@@ -281,7 +280,7 @@ def _find_most_alike(state: Search, term: Term, named: Sequence[Term]) -> str:
     if state.weighed is None:
         return named[0].effect.name
     weighed = state.weighed
-    whole = compute_left_by_base(weighed.statistics).sum(axis=0)
+    whole = weighed.left_by_base.sum(axis=0)
     size = np.sqrt(np.maximum(np.diag(whole), 1e-300))
     own = [i for i, c in enumerate(weighed.columns) if c.label == term.label]
     likeness: dict[str, float] = {t.effect.name: 0.0 for t in named}

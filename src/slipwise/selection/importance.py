@@ -29,7 +29,7 @@ from slipwise.rig.build import largest_step
 from slipwise.short_repr import short_repr
 from slipwise.simulation.kernel.layout import buffer_memories, pad_memories
 from slipwise.simulation.predict import predictor
-from slipwise.simulation.result import Memory, SimulationDiverged
+from slipwise.simulation.result import Memory, Replay, SimulationDiverged
 from slipwise.simulation.simulator import simulate
 from slipwise.simulation.step_check import warn_of_coarse_step
 
@@ -184,22 +184,21 @@ def _replayed(model: Model, final: BaseFit, place: int, *, rough: bool, partly: 
     run = final.objective.run(place)
     dt, motion = choose_simulation_step(run.dt), get_measured_motion(run.states)
     start, rest = compute_memory_before(model, final.objective.runs_before(place)), run.rest_before
-    steps = [dt]
-    if rough and round(run.dt / dt) % 2 == 0 and 2.0 * dt <= largest_step(model.specimen):
-        steps = [2.0 * dt, dt]
-    answer, channels = None, {}
-    for step in steps:
+
+    def shake(step: float) -> tuple[Replay, SimulationDiverged | None]:
         try:
             shaken = resample(motion, step).acceleration
-            answer = simulate(model, shaken, dt=step, output_dt=run.dt, start=start, rest=rest)
-            channels = answer.record.channels
-            break
+            return simulate(model, shaken, dt=step, output_dt=run.dt, start=start, rest=rest), None
         except SimulationDiverged as error:
-            if step == dt and not partly:
-                raise
-            answer = error.replay
-            channels = _as_long_as(answer.record.channels, len(run.time))
-    assert answer is not None
+            return error.replay, error
+
+    doubled = rough and round(run.dt / dt) % 2 == 0 and 2.0 * dt <= largest_step(model.specimen)
+    answer, stopped = shake(2.0 * dt if doubled else dt)
+    if stopped and doubled:
+        answer, stopped = shake(dt)
+    if stopped and not partly:
+        raise stopped
+    channels = _as_long_as(answer.record.channels, len(run.time)) if stopped else answer.record.channels
     if not rough:
         warn_of_coarse_step(model, answer, motion.title)
     responses = {

@@ -5,10 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from slipwise.evidence.calibration import compute_log_odds
 from slipwise.selection.posterior import Posterior
 
 #: What matters and is seen: more than so many limits of materiality, and so many floors after a fit of the base [1].
 MATTERS, SEEN = 0.85, 0.65
+#: A posterior of some hundred draws says no more of an effect than these log-odds.
+_SUREST_ODDS = 6.0
 
 
 @dataclass(frozen=True)
@@ -32,6 +35,11 @@ class Inclusion:
     seen: float
     rival: float
     stays: float
+
+    @property
+    def log_odds(self) -> float:
+        """Log-odds that it matters, no surer than a posterior's draws can tell."""
+        return float(np.clip(compute_log_odds(self.matters), -_SUREST_ODDS, _SUREST_ODDS))
 
 
 #: Of an effect that no posterior knows.

@@ -23,7 +23,7 @@ from slipwise.evidence.calibration import Calibration, compute_log_odds
 from slipwise.evidence.decision import EVEN_ODDS, LISTED
 from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.inclusion import MATTERS, SEEN
-from slipwise.selection.posterior import Prior
+from slipwise.selection.posterior import Prior, list_trifles, make_normal_system
 from slipwise.selection.proposals import LIKELY, LIKELY_FLOORS, LIKELY_LIMITS
 from slipwise.selection.statistics import Statistics, compute_left_by_base
 
@@ -85,15 +85,12 @@ def prepare_weighing(
     within = {(c.label, c.form): sum((o.label, o.form) == (c.label, c.form) for o in columns) for c in columns}
     terms = {c.effect: len({o.label for o in columns if o.effect == c.effect}) for c in columns}
     shares = np.array([terms[c.effect] * forms[c.label] * within[c.label, c.form] for c in columns], float)
-    trifle = np.where(gauge, prior.trifle_of_gauges, prior.trifle) / np.sqrt([forms[label] for label in labels])
-    weights = 1.0 / np.maximum(1.0, statistics.rows / prior.independent)
-    whole = np.tensordot(weights, statistics.products, 1)
-    ridge = np.concatenate([1e-6 * np.diag(whole)[:base] + 1e-9, trifle**-2.0])
-    for place, (_, deviation) in tolerances.items():
-        ridge[place] += deviation**-2.0
-    inside = slice(base, None)
-    solved = np.linalg.solve(whole + np.diag(ridge), whole[:, inside]).T
+    trifle = list_trifles(columns)
+    system = make_normal_system(statistics, tolerances, np.ones(len(statistics.rows)), trifle)
+    whole, inside = system.whole, slice(base, None)
+    solved = np.linalg.solve(system.regular, whole[:, inside]).T
     response = np.eye(len(whole))[inside] - solved
+    weights = 1.0 / np.maximum(1.0, statistics.rows / prior.independent)
     values, axes = np.linalg.eigh(np.tensordot(weights**2, statistics.products, 1))
     noise = axes * np.sqrt(np.where(values > _ROUND_OFF * values[-1], values, 0.0))
     shown = np.array([np.diag(left) for left in compute_left_by_base(statistics)]).max(axis=0)

@@ -14,14 +14,13 @@ import numpy as np
 from scipy.special import expit
 
 from slipwise.arrays import Array
-from slipwise.evidence.calibration import compute_log_odds, load_calibration
+from slipwise.evidence.calibration import load_calibration
 from slipwise.evidence.decision import EVEN_ODDS, LISTED
 from slipwise.jobs.parallel import on_every_core
 from slipwise.selection.columns import OF_MODEL
 from slipwise.selection.inclusion import Inclusion, compute_inclusions
 from slipwise.selection.posterior import Posterior
 from slipwise.selection.proposals import LIKELY, compute_chances_of_large
-from slipwise.selection.statistics import compute_left_by_base
 from slipwise.selection.twins import compute_posterior_of_twin, make_twin
 from slipwise.selection.weighed_model import DRAWS, WeighedModel
 from slipwise.short_repr import short_repr
@@ -132,7 +131,7 @@ def _evidence(of: Inclusion, errors: float, *, gauge: bool) -> dict[str, float]:
         "share": 0.0,
         "stays": of.stays,
         "gauge": float(gauge),
-        "inclusion": float(np.clip(compute_log_odds(of.matters), -6.0, 6.0)),
+        "inclusion": of.log_odds,
         "spread": min(of.spread, 1.0),
         "seen": float(np.log(max(of.seen, 1e-2))),
         "beside": 0.0,
@@ -141,6 +140,5 @@ def _evidence(of: Inclusion, errors: float, *, gauge: bool) -> dict[str, float]:
 
 def _compute_shown(weighed: WeighedModel) -> Array:
     """Return what the base fit leaves of one limit of each column, all samples together (K,) [noise variance]."""
-    left = compute_left_by_base(weighed.statistics)
-    squares = np.einsum("rii,r->i", left, np.maximum(weighed.statistics.samples, 1.0))
+    squares = np.einsum("rii,r->i", weighed.left_by_base, np.maximum(weighed.statistics.samples, 1.0))
     return np.maximum(squares, 0.0)

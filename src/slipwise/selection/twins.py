@@ -10,7 +10,7 @@ import numpy as np
 
 from slipwise.arrays import Array
 from slipwise.selection.posterior import Effort, Posterior, compute_posterior
-from slipwise.selection.statistics import Statistics, compute_left_by_base
+from slipwise.selection.statistics import Statistics
 from slipwise.selection.weighed_model import WeighedModel
 
 #: Of one twin among many.
@@ -60,5 +60,5 @@ def compute_statistics_of_twin(weighed: WeighedModel, twin: Twin) -> Statistics:
     pulls = noise + of.products @ inside
     squares = of.fitted + 2.0 * noise @ inside + np.einsum("i,kij,j->k", inside, of.products, inside)
     beside = twin.sizes[of.base :]
-    shown = np.einsum("i,kij,j->k", beside, compute_left_by_base(of), beside) * np.maximum(of.samples, 1.0)
+    shown = np.einsum("i,kij,j->k", beside, weighed.left_by_base, beside) * np.maximum(of.samples, 1.0)
     return replace(of, pulls=pulls, squares=squares, fitted=of.fitted + np.maximum(shown, 0.0))

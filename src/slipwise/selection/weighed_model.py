@@ -6,6 +6,7 @@ noise with one more effect in it, needs no column and no replay.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.linearisation import Linearisation
 from slipwise.selection.posterior import Posterior
-from slipwise.selection.statistics import Statistics
+from slipwise.selection.statistics import Statistics, compute_left_by_base
 from slipwise.selection.units import Moved
 from slipwise.short_repr import short_repr
 
@@ -47,6 +48,11 @@ class WeighedModel:
     own: Array
     noise: Array
     units: Mapping[tuple[str, str], Moved]
+
+    @cached_property
+    def left_by_base(self) -> Array:
+        """What a fit of the base numbers leaves of the products of columns, (r, K, K), a judged sample each."""
+        return compute_left_by_base(self.statistics)
 
 
 def keep_weighed_model(
