@@ -12,15 +12,16 @@ from slipwise.campaign.zero_state import ShiftedZero
 from slipwise.channels import channel
 from slipwise.effects import Effect, catalogue
 from slipwise.effects._gauges import span
-from slipwise.instruments.acceptance import Evidence
+from slipwise.instruments.balances_case import KNOWN_MASS, RATED_MASS, Case
+from slipwise.instruments.claims import Claim, list_claims, list_physics
 from slipwise.instruments.delay_or_filter import passed
 from slipwise.instruments.displacement_checks import check_displacements
-from slipwise.instruments.fault_selection import select_faults
-from slipwise.instruments.joint_fit import KNOWN_MASS, RATED_MASS, Case, JointFit, start
+from slipwise.instruments.fault_posterior import compute_fault_posterior, fit_base
 from slipwise.instruments.level_checks import contradicted_levels, silent_levels, storey_answers
 from slipwise.instruments.report import AuditFinding, AuditReport, Balance
-from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, nearest, sentence
-from slipwise.instruments.suspects import Suspect, effect_of
+from slipwise.instruments.sentences import as_sentence, confusable, how_to_settle, sentence
+from slipwise.instruments.size_fit import SizeFit
+from slipwise.instruments.suspects import effect_of
 from slipwise.preparation.level_faults import read_levels
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
@@ -99,50 +100,37 @@ def audit(campaign: Campaign | Path | str | Prepared, own: Iterable[Effect] = ()
     highest = passed(likeliest.every if likeliest else None, clean.runs[0].record.dt)
     effects = {**catalogue(), **{e.name: e for e in own}}
     case = Case(runs, allowed, rig, noise, mass_error, highest, tuple(effects.values()))
-    first = start(case)
-    selection = select_faults(case, first)
-    findings = _join_zeros(findings, [_of_evidence(evidence) for evidence in selection.accepted])
-    notes += [f"{as_sentence(e.suspect, e.size)}: too little to matter" for e in selection.small]
-    notes += [f"{as_sentence(e.suspect, e.size)} would explain something, but {e.why_not}" for e in selection.refused]
+    found = compute_fault_posterior(case, fit_base(case))
+    claims = list_claims(found)
+    findings = _join_zeros(findings, [_of_claim(claim) for claim in claims if not claim.doubt])
+    notes += [claim.note for claim in claims if claim.doubt]
     return replace(
         plain,
         findings=tuple(sorted(findings, key=lambda finding: -finding.probability)),
-        balances=_balances(first, selection.fit),
-        physics=tuple(dict.fromkeys(selection.physics)),
-        constants=selection.fit.constants,
+        balances=_balances(found.first, found.last),
+        physics=tuple(list_physics(found)),
+        constants=found.last.point.constants,
         notes=tuple(notes),
     )
 
 
-def _of_evidence(evidence: Evidence) -> AuditFinding:
-    """Turn a suspect that stands into a finding."""
-    suspect, size = evidence.suspect, evidence.size
-    # runs that disagree widen the interval: their scatter is misfit that the formula does not know
-    scatter = float(np.std(evidence.runs, ddof=1)) / np.sqrt(len(evidence.runs)) if len(evidence.runs) > 1 else 0.0
-    reach = 1.96 * max(evidence.error, scatter)
-    against = [loss for name, loss in evidence.rivals if not _same_fault(name, suspect)]
-    odds = sum(float(np.exp(-np.clip(loss, -30.0, 30.0))) for loss in against)
-    rivals = nearest(evidence.rivals, evidence.gain)
+def _of_claim(claim: Claim) -> AuditFinding:
+    """Turn a fault that is named into a finding."""
+    suspect = claim.suspect
     return AuditFinding(
         effect=suspect.effect,
         channel=suspect.target if suspect.target != "all" else "pad_*",
-        size=size,
-        low=size - reach,
-        high=size + reach,
+        size=claim.size,
+        low=claim.low,
+        high=claim.high,
         unit=suspect.unit,
-        probability=min(_SUREST, 1.0 / (1.0 + odds)),
-        mistaken_for=tuple(dict.fromkeys([*rivals, *confusable(suspect.effect)])),
-        settle_by=how_to_settle(suspect.effect, rivals),
-        words=as_sentence(suspect, size),
+        probability=min(_SUREST, claim.probability),
+        mistaken_for=tuple(dict.fromkeys([*claim.rivals, *confusable(suspect.effect)])),
+        settle_by=how_to_settle(suspect.effect, claim.rivals),
+        words=as_sentence(suspect, claim.size),
         target=suspect.target,
-        values=suspect.values(size),
+        values=suspect.values(claim.size),
     )
-
-
-def _same_fault(rival: str, suspect: Suspect) -> bool:
-    """Tell variants of one fault on one channel, which do not make it less sure."""
-    effect, _, place = rival.partition(" ")
-    return effect == suspect.effect.name and place.startswith(suspect.target)
 
 
 def _of_samples(fault: SampleFault) -> AuditFinding:
@@ -203,12 +191,12 @@ def _place(channels: tuple[str, ...]) -> str:
     return channels[0] if len(channels) == 1 else "all"
 
 
-def _balances(first: JointFit, last: JointFit) -> tuple[Balance, ...]:
-    rows = []
-    for name, left in first.left.items():
-        before, after = (float(np.sqrt(np.mean(np.square(f.left[name])))) / f.floor[name] for f in (first, last))
-        rows.append(Balance(name, first.floor[name], before, after, len(left)))
-    return tuple(rows)
+def _balances(first: SizeFit, last: SizeFit) -> tuple[Balance, ...]:
+    rows, names = first.linear.statistics.rows, first.linear.relations
+    return tuple(
+        Balance(name, first.linear.floor[name], float(before), float(after), int(count))
+        for name, before, after, count in zip(names, first.left, last.left, rows, strict=True)
+    )
 
 
 def _rounded(campaign: Campaign) -> list[str]:

@@ -14,8 +14,6 @@ _SHOWN: dict[str, tuple[float, str]] = {
     "N": (1e-3, "kN"),
     "Pa": (1e-6, "MPa"),
 }
-#: Rivals within this of the winner's score, or within this part of its gain, are named [units of the score, 1].
-_NEAR, _PART = 12.0, 0.1
 
 
 def shown(size: float, unit: str, effect: Effect) -> str:
@@ -35,11 +33,6 @@ def as_sentence(suspect: Suspect, size: float) -> str:
 def sentence(effect: Effect, place: str, size: float, unit: str) -> str:
     """Write what a fault did on a place, and how much of it."""
     return f"{place} {declared(effect).says.format(size=shown(size, unit, effect))}"
-
-
-def nearest(rivals: Sequence[tuple[str, float]], gain: float) -> tuple[str, ...]:
-    """Return the rivals that explain nearly as much, nearest first."""
-    return tuple(dict.fromkeys(name for name, loss in rivals if loss < max(_NEAR, _PART * gain)))
 
 
 def confusable(effect: Effect) -> tuple[str, ...]:

@@ -19,17 +19,57 @@ JASA 114 (coarsened posterior).
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.arrays import Array
-from slipwise.selection.columns import OF_MODEL, CandidateColumn
+from slipwise.selection.columns import OF_MODEL
 from slipwise.selection.sampler import sample_places
 from slipwise.selection.statistics import Statistics, compute_left_by_base
 from slipwise.short_repr import short_repr
 
 Ints = NDArray[np.int64]
+
+
+class Competing(Protocol):
+    """What a posterior asks of a column: a strength of an effect of the model, or the size of a fault of a gauge."""
+
+    @property
+    def label(self) -> str:
+        """Of the candidate's term."""
+        ...
+
+    @property
+    def effect(self) -> str:
+        """Its name."""
+        ...
+
+    @property
+    def gauge(self) -> bool:
+        """Whether it is a fault of gauges."""
+        ...
+
+    @property
+    def form(self) -> int:
+        """Number of the form."""
+        ...
+
+    @property
+    def strength(self) -> str:
+        """Its name; "" for all strengths of an effect of the model together."""
+        ...
+
+    @property
+    def two_sided(self) -> bool:
+        """Whether it may lie on either side of what is neutral."""
+        ...
+
+    @property
+    def numbers(self) -> int:
+        """How many were fitted beside it."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -96,7 +136,7 @@ class _Forms:
     length: Ints
 
 
-def _group(columns: Sequence[CandidateColumn]) -> _Forms:
+def _group(columns: Sequence[Competing]) -> _Forms:
     labels = list(dict.fromkeys(c.label for c in columns))
     forms: dict[tuple[str, int], list[int]] = {}
     for i, c in enumerate(columns):
@@ -140,7 +180,7 @@ QUICK = Effort(chains=2, sweeps=30, draws=150, rounds=2)
 
 def compute_posterior(
     statistics: Statistics,
-    columns: Sequence[CandidateColumn],
+    columns: Sequence[Competing],
     tolerances: Mapping[int, tuple[float, float]],
     apart: Collection[tuple[str, str]] = (),
     effort: Effort | None = None,
@@ -215,7 +255,7 @@ def compute_posterior(
     return _as_posterior(statistics, forms, taken, sizes, level, gain)
 
 
-def list_trifles(columns: Sequence[CandidateColumn]) -> Array:
+def list_trifles(columns: Sequence[Competing]) -> Array:
     """Return the standard deviation (K,) of what is always there of every column: a term's forms share it [limits]."""
     prior = Prior()
     forms: dict[str, set[int]] = {}

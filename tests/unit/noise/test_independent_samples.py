@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter, resample_poly
 
-from slipwise.instruments.joint_fit import ROWS_FOR_ONE
 from slipwise.noise.independent_samples import measure_block_length, sum_correlations, sum_sure_correlations
-from slipwise.signals.filters import LowPass, lowpass
 
 
 def coloured(memory: float, seed: int, count: int = 40_000) -> np.ndarray:
@@ -58,10 +56,3 @@ def test_a_few_hundred_samples_show_what_is_sure(memory, allowed):
 def test_nothing_known_counts_every_sample():
     assert sum_correlations([]) == sum_sure_correlations([]) == sum_sure_correlations([np.zeros(50)]) == 1.0
     assert sum_correlations([np.zeros(50)]) == 1.0
-
-
-def test_rows_of_an_audit_hold_as_many_independent_samples_as_their_evidence_counts():
-    step, band = 0.002, 40.0
-    noise = lowpass(np.random.default_rng(8).normal(size=200_000), step, LowPass(band, 6, "aligned"))
-    rows = noise[:: int(1.0 / (3.0 * band * step))]
-    assert sum_correlations([rows]) == pytest.approx(ROWS_FOR_ONE, rel=0.1)

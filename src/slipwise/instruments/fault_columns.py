@@ -1,0 +1,186 @@
+"""What every candidate changes in the balances of a rigid girder: one column for each fault of a gauge in each form."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from slipwise.arrays import Array
+from slipwise.instruments.balances_case import Case, Point, mended
+from slipwise.instruments.delay_or_filter import is_delay
+from slipwise.instruments.disturbances import Alternative
+from slipwise.instruments.suspects import Suspect, suspects
+from slipwise.regression.normal_equations import Block, build_equations, invert_regularised, weigh_equations
+from slipwise.relations.balance_rows import PreparedRun, Stack, adding, list_changed_rows, stack_rows, with_records
+
+#: Forms of one disturbance that compete at once.
+_FORMS = 3
+#: A lag that is taken out is held against itself at its size times these [1].
+_NEIGHBOURS = (1.0, 1.2, 1.0 / 1.2)
+
+
+@dataclass(frozen=True)
+class FaultColumn:
+    """One number of a candidate at one form.
+
+    Attributes:
+        label: of the candidate.
+        effect: its name, or words.
+        gauge: whether it is a fault of gauges.
+        form: number of the form.
+        two_sided: whether its size may have either sign.
+        suspect: the fault; None of a disturbance.
+        block: relation -> (n, 1) change of what is left by taking one unit out: the least size of a fault.
+        noise: relation -> what the gauge's own noise adds to the product of the column with what is left.
+        strength: name of what the column is the change by.
+        numbers: fitted beside it.
+    """
+
+    label: str
+    effect: str
+    gauge: bool
+    form: int
+    two_sided: bool
+    suspect: Suspect | None
+    block: Block
+    noise: Mapping[str, float]
+    strength: str = "size"
+    numbers: int = 0
+
+
+@dataclass(frozen=True)
+class BalancesAt:
+    """Records and balances at a point.
+
+    Attributes:
+        case: what is judged.
+        point: where.
+        runs: without the faults of the point.
+        stack: their balances.
+    """
+
+    case: Case
+    point: Point
+    runs: list[PreparedRun]
+    stack: Stack
+
+    def changed(self, runs: Sequence[PreparedRun], suspect: Suspect, before: Stack) -> dict[str, Array]:
+        """Return the change of what is left, relation -> (n,), where the channels of a suspect were changed."""
+        case, touched = self.case, frozenset(suspect.channels)
+        return list_changed_rows(runs, case.relations, case.specimen, self.point.constants, before, touched)
+
+
+def evaluate(case: Case, point: Point) -> BalancesAt:
+    """Evaluate the balances without the faults of a point."""
+    runs = mended(case.runs, point.sizes)
+    return BalancesAt(case, point, runs, stack_rows(runs, case.relations, case.specimen, point.constants))
+
+
+def label_of(suspect: Suspect) -> str:
+    """Name a fault on its place, whatever its form; a filter is a form of the delay that it is where it is small."""
+    return f"{_kind(suspect)} {suspect.target}" + (" other" if suspect.effect.gauges.reads else "")
+
+
+def _kind(suspect: Suspect) -> str:
+    return suspect.effect.plainer or suspect.effect.name
+
+
+def columns_of_faults(
+    at: BalancesAt, kept: Sequence[FaultColumn], anew: Mapping[str, Sequence[float]]
+) -> list[FaultColumn]:
+    """Return the columns of all faults, in units of their least size.
+
+    The column of a fault that is taken out of the records is the whole change over its size: a large delay is no
+    straight line from zero. The other forms of such a fault are held against it at the same size.
+
+    Args:
+        at: where.
+        kept: columns that were taken before.
+        anew: labels whose columns are taken again -> sizes at which they are taken [least sizes].
+    """
+    case, point = at.case, at.point
+    in_place = {label_of(s): (s, size) for s, size in point.sizes}
+    bare: dict[str, BalancesAt] = {
+        label: evaluate(case, Point(point.constants, tuple(one for one in point.sizes if one[0] is not suspect)))
+        for label, (suspect, _) in in_place.items()
+    }
+    known: dict[str, list[FaultColumn]] = {}
+    for c in kept:
+        if c.label not in anew and c.label not in in_place:
+            known.setdefault(c.label, []).append(c)
+    found = [c for own in known.values() for c in own]
+    forms: dict[str, int] = {}
+    for suspect in suspects(case.runs[0].record, case.specimen, case.effects):
+        label = label_of(suspect)
+        if label in known:
+            continue
+        changes: list[dict[str, Array]] = []
+        if label in in_place:
+            for factor in _NEIGHBOURS if suspect.unit == "s" else (1.0,):
+                size = factor * in_place[label][1]
+                if (suspect.one_sided and size <= 0.0) or is_delay(suspect.effect, suspect.values(size), case.passed):
+                    continue
+                changed = with_records(bare[label].runs, lambda r, s=suspect, z=size: s.correct(r, z))
+                change = at.changed(changed, suspect, bare[label].stack)
+                changes.append({n: rows * (suspect.least / size) for n, rows in change.items()})
+        elif not suspect.effect.plainer:  # a small filter is a delay
+            for size in anew.get(label, (suspect.step / suspect.least,)):
+                changed = with_records(at.runs, lambda r, s=suspect, z=size: s.distort(r, z * s.least))
+                change = at.changed(changed, suspect, at.stack)
+                changes.append({n: rows / -size for n, rows in change.items()})
+        for change in changes:
+            if any(np.any(rows) for rows in change.values()):
+                number = forms[label] = forms.get(label, -1) + 1
+                block, noise = {n: rows[:, None] for n, rows in change.items()}, _noise_with_itself(at, suspect)
+                column = FaultColumn(label, _kind(suspect), True, number, not suspect.one_sided, suspect, block, noise)
+                found.append(column)
+    return found
+
+
+def _noise_with_itself(at: BalancesAt, suspect: Suspect) -> dict[str, float]:
+    """Return the product of a gain's signature with the residual that comes from the channel's own noise alone.
+
+    The signature of a gain is the channel with its noise, so a gain would "explain" noise by shrinking it. What a
+    delay or an offset makes of noise has nothing to do with the noise itself.
+    """
+    if not suspect.fault.scales:
+        return {}
+    change = at.changed(adding(at.runs, at.case.noise, suspect.channels), suspect, at.stack)
+    return {name: suspect.least * float(rows @ rows) for name, rows in change.items()}
+
+
+def in_question(
+    physics: Sequence[Alternative], stack: Stack, left: Mapping[str, Array], floor: Mapping[str, float]
+) -> list[Alternative]:
+    """Return the disturbances, of one with many forms (a bending girder's frequencies) those that explain most."""
+    of: dict[tuple[str, frozenset[str]], list[Alternative]] = {}
+    for a in physics:
+        of.setdefault((a.name, frozenset(a.columns)), []).append(a)
+    kept: list[Alternative] = []
+    for forms in of.values():
+        if len(forms) > _FORMS:
+            base = list(stack.base.values())
+            parts, first = build_equations([*base, *(a.columns for a in forms)], {n: left[n] for n in forms[0].columns})
+            whole, pull = weigh_equations(parts, {n: 1.0 / floor[n] for n in parts}, int(first[-1]))
+            known = int(first[len(base)])
+            free = invert_regularised(whole[:known, :known]) @ np.column_stack([whole[:known], pull[:known]])
+            gains = []
+            for k in range(len(forms)):
+                own = slice(int(first[len(base) + k]), int(first[len(base) + k + 1]))
+                y = pull[own] - whole[own, :known] @ free[:, -1]
+                gains.append(float(y @ invert_regularised(whole[own, own] - whole[own, :known] @ free[:, own]) @ y))
+            forms = [forms[k] for k in np.argsort(gains)[-_FORMS:]]
+        kept += forms
+    return kept
+
+
+def columns_of_physics(physics: Sequence[Alternative], left: Mapping[str, Array]) -> Iterator[FaultColumn]:
+    """Yield the columns of disturbances, in their own units."""
+    forms: dict[str, int] = {}
+    for a in physics:
+        label = f"{a.name} in {', '.join(sorted(a.columns))}"
+        number = forms[label] = forms.get(label, -1) + 1
+        for k in range(a.width):
+            block = {n: c[:, k : k + 1] for n, c in a.columns.items() if n in left}
+            if any(np.any(b) for b in block.values()):
+                yield FaultColumn(label, a.name, False, number, True, None, block, {})
