@@ -55,7 +55,7 @@ def verdict_of(folder: Path) -> dict[str, Any]:
         "evidence": {f.name: rounded(evidence_of(f)) for f in said.findings},
         "rivals": sorted({name for rival in said.rivals for name in rival.names}),
         "cannot_tell": [words.split(":")[0] for words in found.cannot_tell],
-        "at_limit": [f.name for f in said.findings if f.at_limit],
+        "at_limit": [f.name for f in said.findings if f.at_limit or f.is_trifle],
         "posterior": {n: rounded(vars(of)) for n, of in state.inclusions.items() if of.present > 0.02},
         "rest": rounded(rest),
         "unexplained": rounded(state.unexplained),

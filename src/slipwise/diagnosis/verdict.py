@@ -88,7 +88,7 @@ def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materi
     surface = leftover(final)
     surface = surface if structured(surface) else None
     rest = evidence_of_rest(origin, final, surface, state.unexplained)
-    of_effects = {f.name: evidence_of(f) for f in found if not f.at_limit}
+    of_effects = {f.name: evidence_of(f) for f in found if not (f.at_limit or f.is_trifle)}
     decided = decide(of_effects, rest, limits.channel, load_calibration())
     kind = decided.kind
     if kind == "complete" and {f.name for f in found} - set(decided.minor):
