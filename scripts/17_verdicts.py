@@ -3,11 +3,14 @@
     python scripts/16_families.py --out out/families --count 3
     python scripts/17_verdicts.py --out out/families
     python scripts/17_verdicts.py --out out/families --only dirty gains
+    python scripts/17_verdicts.py --out out/families --without pads
     python scripts/17_verdicts.py --quick
 
 Every verdict is one line of OUT/verdicts.jsonl, and the same command goes on where it stopped; `--anew` begins again.
 Printed are, by family and for all together: right, something absent named, material effects missed, and the median of
-the seconds. `tests/bench/family_score.py` says what is right. `scripts/calibrate.py` takes the evidence.
+the seconds. `--without` takes gauges of the pads from the records first (single sliders stay out: nothing of them would
+be left): a law is then not missed where it is a rival, or is said to be what the campaign cannot tell.
+`tests/bench/family_score.py` says what is right. `scripts/calibrate.py` takes the evidence.
 """
 
 import argparse
@@ -27,6 +30,8 @@ from slipwise.errors import SlipwiseError
 TESTS = Path(__file__).parents[1] / "tests"
 #: What `--quick` diagnoses: single sliders take seconds.
 QUICKEST = ("springs_and_walls",)
+#: Families of one slider on an actuator.
+ONE_SLIDER = ("sliders", "tribometers", "springs_and_walls", "pendulums_constant_load", "pendulums_varying_load")
 
 
 def verdict_of(folder: Path) -> dict[str, Any]:
@@ -48,7 +53,9 @@ def verdict_of(folder: Path) -> dict[str, Any]:
         "base_error": float(f"{found.base_error:.4g}"),
         "final_error": float(f"{found.final_error:.4g}"),
         "evidence": {f.name: rounded(evidence_of(f)) for f in said.findings},
-        "at_limit": [f.name for f in said.findings if f.at_limit],
+        "rivals": sorted({name for rival in said.rivals for name in rival.names}),
+        "cannot_tell": [words.split(":")[0] for words in found.cannot_tell],
+        "at_limit": [f.name for f in said.findings if f.at_limit or f.is_trifle],
         "posterior": {n: rounded(vars(of)) for n, of in state.inclusions.items() if of.present > 0.02},
         "rest": rounded(rest),
         "unexplained": rounded(state.unexplained),
@@ -83,6 +90,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=Path, default=Path("out/families"))
     parser.add_argument("--only", nargs="*", default=[""], help="campaigns whose names begin so")
+    parser.add_argument("--without", choices=("pads", "forces"), help="gauges that the records lose first")
     parser.add_argument("--anew", action="store_true", help="diagnose again what was diagnosed")
     parser.add_argument("--quick", action="store_true", help="make and diagnose one campaign")
     chosen = parser.parse_args()
@@ -90,6 +98,7 @@ def main() -> None:
     from bench.families import FAMILIES  # pyright: ignore[reportMissingImports]
     from bench.family_score import accused, missed, right  # pyright: ignore[reportMissingImports]
     from bench.family_store import make, orders  # pyright: ignore[reportMissingImports]
+    from bench.without_gauges import answer_without, write_without  # pyright: ignore[reportMissingImports]
 
     if chosen.quick:
         for order in orders(chosen.out, [FAMILIES[name] for name in QUICKEST], ["ode"], 1):
@@ -97,7 +106,7 @@ def main() -> None:
     answers = {f.stem: json.loads(f.read_text(encoding="utf-8")) for f in sorted(chosen.out.glob("answers/*.json"))}
     if not answers:
         parser.error(f"{chosen.out} holds no answer keys; make campaigns there with scripts/16_families.py --out")
-    path = chosen.out / "verdicts.jsonl"
+    path = chosen.out / (f"verdicts_without_{chosen.without}.jsonl" if chosen.without else "verdicts.jsonl")
     if chosen.anew:
         path.unlink(missing_ok=True)
     lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
@@ -106,9 +115,20 @@ def main() -> None:
         for name, answer in answers.items():
             if name in rows or not name.startswith(tuple(chosen.only)):
                 continue
-            said = verdict_of(chosen.out / "campaigns" / name)
+            if chosen.without and answer["family"] in ONE_SLIDER:
+                continue
+            folder = chosen.out / "campaigns" / name
+            if chosen.without:
+                lean = chosen.out / f"campaigns_without_{chosen.without}" / name
+                write_without(folder, lean, chosen.without)
+                folder, answer = lean, answer_without(answer, chosen.without)
+            said = verdict_of(folder)
             wrong = {"accused": sorted(accused(answer, said)), "missed": sorted(missed(answer, said))}
             row = {"name": name, "family": answer["family"], "right": right(answer, said)}
+            if chosen.without and not wrong["accused"] and said["verdict"] != "failed":
+                # what a campaign cannot tell, and says so, is not missed
+                wrong["missed"] = sorted({*wrong["missed"]} - {*said["cannot_tell"], *said["rivals"]})
+                row["right"] = not wrong["missed"]
             rows[name] = {**row, **said, **wrong, "missing": answer["missing"]}
             print(json.dumps(rows[name]), file=stream, flush=True)
             print(f"{name}: {'right' if row['right'] else f'wrong {wrong}'}", flush=True)

@@ -37,8 +37,8 @@ from slipwise.evidence.decision import decide, is_left
 
 TESTS = Path(__file__).parents[1] / "tests"
 OUT = Path(__file__).parents[1] / "src" / "slipwise" / "evidence" / "calibration.json"
-PRESENT = ("lead", "share", "stays", "gauge", "inclusion", "spread", "seen", "beside")
-MATTERS = ("spread", "gauge", "lead", "beside")
+PRESENT = ("lead", "share", "stays", "gauge", "inclusion", "spread", "seen", "beside", "left")
+MATTERS = ("spread", "gauge", "lead", "beside", "left")
 FAMILY = ("explained", "left", "relative")
 #: Numbers of which more can only make a claim likelier, or less likely: a few campaigns must not say the opposite.
 WAYS = {name: (0.0, None) for name in ("lead", "share", "stays", "inclusion", "seen", "explained", "product")}
@@ -57,6 +57,7 @@ def read(folder: Path) -> list[Row]:
     lines = (folder / "verdicts.jsonl").read_text(encoding="utf-8").splitlines()
     rows = [row for row in map(json.loads, lines) if "evidence" in row]
     for row in rows:
+        row["evidence"] = {name: {**of, "left": row["rest"]["left"]} for name, of in row["evidence"].items()}
         row["answer"] = json.loads((folder / "answers" / f"{row['name']}.json").read_text(encoding="utf-8"))
         row["group"] = row["name"].rsplit("-", 2)[0] + row["name"].rsplit("-", 1)[1]
     return rows

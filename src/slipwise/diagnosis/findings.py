@@ -14,6 +14,7 @@ from slipwise.selection.hypothesis import Hypothesis, is_at_limit, list_paramete
 from slipwise.selection.importance import Importance
 from slipwise.selection.inclusion import ABSENT, Inclusion
 from slipwise.selection.plainer import holds_as_limit
+from slipwise.selection.posterior import Prior
 from slipwise.selection.search_state import Search
 from slipwise.short_repr import short_repr
 
@@ -74,6 +75,11 @@ class EffectFinding:
     def is_gauge(self) -> bool:
         """Whether it is a fault of gauges."""
         return self.terms[0].effect.component == "instrument"
+
+    @property
+    def is_trifle(self) -> bool:
+        """Whether a refit of everything has left it no larger than what is always there and never named."""
+        return self.material < (Prior().trifle_of_gauges if self.is_gauge else Prior().trifle)
 
 
 def collect_findings(

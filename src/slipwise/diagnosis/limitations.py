@@ -62,7 +62,7 @@ def list_limitations(state: Search, final: BaseFit, faults: Sequence[SampleFault
         *list_unidentified(final, state.base),
         *list_untold_forces(state.base.objective.measurements),
         *_friction_or_buffers(state, rows, project),
-        *_hidden_in_the_sum(state),
+        *list_hidden_in_the_sum(state).items(),
         *_alike(state, rows, project),
         *_rests_not_given(state),
         *_zero_not_shown(state, final),
@@ -112,14 +112,14 @@ def _friction_or_buffers(
             )
 
 
-def _hidden_in_the_sum(state: Search) -> Iterator[tuple[str, str]]:
-    """Find laws of friction that show in single pads and hardly in what all of them carry together."""
+def list_hidden_in_the_sum(state: Search) -> dict[str, str]:
+    """Return the laws of friction that show in single pads and hardly in what all of them carry together -> why."""
     base = state.base
     if base.objective.forces_measured or not base.objective.specimen.slides:
-        return
-    least = list_least_sizes(state.alone)
+        return {}
+    hidden: dict[str, str] = {}
     laws = {t.effect.name: t.effect for t in state.terms if t.effect.port in FRICTION_PORTS}
-    for name, (size, unit) in least.items():
+    for name, (size, unit) in list_least_sizes(state.alone).items():
         strengths = (
             [p for p in laws[name].parameters if p.neutral is not None and p.unit == unit] if name in laws else []
         )
@@ -131,7 +131,8 @@ def _hidden_in_the_sum(state: Search) -> Iterator[tuple[str, str]]:
                 for x in (size, usual)
             ]
             reason = f"no pad's friction was measured, and in that of all together it shows from {shown[0]} on"
-            yield name, f"{reason}; its usual size is {shown[1]}"
+            hidden[name] = f"{reason}; its usual size is {shown[1]}"
+    return hidden
 
 
 def _beyond_what_was_fitted(base: BaseFit) -> Iterator[tuple[str, str]]:

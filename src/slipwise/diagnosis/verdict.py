@@ -10,6 +10,7 @@ from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.findings import EffectFinding, compute_excess_over_noise
 from slipwise.diagnosis.held_out_regime import find_untestable_reason
 from slipwise.diagnosis.indistinguishable import is_distinguishable, list_alike_pairs, list_known_effects
+from slipwise.diagnosis.limitations import list_hidden_in_the_sum
 from slipwise.diagnosis.unknown_surface import ResidualSurface, leftover, structured
 from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
 from slipwise.estimation.objective import Objective
@@ -21,6 +22,7 @@ from slipwise.instruments.suspects import effect_of
 from slipwise.preparation.sample_fault import SampleFault
 from slipwise.relations.parameters import Term
 from slipwise.selection.hypothesis import Hypothesis
+from slipwise.selection.posterior import Prior
 from slipwise.selection.search_state import Search
 from slipwise.short_repr import short_repr
 
@@ -86,7 +88,7 @@ def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materi
     surface = leftover(final)
     surface = surface if structured(surface) else None
     rest = evidence_of_rest(origin, final, surface, state.unexplained)
-    of_effects = {f.name: evidence_of(f) for f in found if not f.at_limit}
+    of_effects = {f.name: evidence_of(f) for f in found if not (f.at_limit or f.is_trifle)}
     decided = decide(of_effects, rest, limits.channel, load_calibration())
     kind = decided.kind
     if kind == "complete" and {f.name for f in found} - set(decided.minor):
@@ -97,12 +99,14 @@ def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materi
     named, probability = decided.named, decided.probability
     if named and _explains_little(origin, final) and is_left(rest, limits.channel):
         kind, named, probability = "unknown", (), max(1.0 - probability, EVEN_ODDS)
+    if kind != "unknown":
+        probability *= _chance_that_nothing_hides(state, named) * (1.0 if origin.objective.held_out else _UNCONFIRMED)
     nameless = any(f.at_limit and f.material >= 1.0 for f in found)
     verdict = Verdict(
         kind,
         named,
         decided.minor,
-        probability if kind == "unknown" or origin.objective.held_out else _UNCONFIRMED * probability,
+        probability,
         "unknown" if is_left(rest, limits.channel) or nameless else "none",
         compute_explained_share_of_base(origin, final),
         surface,
@@ -128,6 +132,12 @@ def _explains_little(origin: Hypothesis, final: Hypothesis) -> bool:
     """Return whether effects leave more than half where no pad's force was measured: no gauge tells what else it is."""
     without = origin.objective.specimen.free and not origin.objective.forces_measured
     return without and compute_explained_share_of_base(origin, final) < 1.0 - _CARRIED_OVER
+
+
+def _chance_that_nothing_hides(state: Search, named: Sequence[str]) -> float:
+    """Return the prior chance that no law matters of those that show in single pads only, where none was measured."""
+    hidden = set(list_hidden_in_the_sum(state)) - set(named)
+    return (1.0 - Prior().chance) ** len(hidden)
 
 
 def _in_place(state: Search, finding: EffectFinding) -> list[str]:

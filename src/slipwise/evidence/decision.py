@@ -56,10 +56,12 @@ def decide(
         effects: name -> its evidence, most important first: "lead" and so on as the calibration asks, "inclusion"
             (log-odds of the posterior that it matters), "gauge" (1 for a fault of gauges) and "rival" (standard errors
             by which the nearest rival is behind).
-        rest: evidence on what is left: "relative" (logarithm of its share of what a balance is made of) and so on.
+        rest: evidence on what is left: "relative" (logarithm of its share of what a balance is made of), "left" (share
+            of it that has structure: then an effect may only stand for another law) and so on.
         least: share of a balance that matters [1].
         chances: the calibration.
     """
+    effects = {name: {**of, "left": rest["left"]} for name, of in effects.items()}
     sure = {name: chances.present(of) for name, of in effects.items()}
     both = {name: chances.matters(of) * float(expit(of["inclusion"])) for name, of in effects.items()}
     named = tuple(name for name in effects if both[name] >= EVEN_ODDS)
