@@ -32,6 +32,8 @@ _ONSET, _ONSET_SURE = 16, 4.0
 _TRUEST = 1e-3
 #: What moves by less than this part of itself is a constant; taking a logger's lag out rounds [1].
 _CONSTANT = 1e-9
+#: Blocks of 20 ms that show what a table's gauge does at rest, and the share of its motion that this is at most [1].
+_BEGINS, _AT_REST = 5, 0.03
 #: Most and fewest samples of a stretch, the fewest stretches that tell something, and the share that is calmest [1].
 _LONGEST, _SHORTEST, _ENOUGH_STEADY, _CALMEST = 128, 16, 3, 0.25
 #: Share of the stroke over which every law is a smooth curve: a longer stretch takes the law's own shape for noise [1].
@@ -164,15 +166,20 @@ def _before_onset(rest: Array) -> Array:
 
 
 def find_rest_before_motion(record: Record) -> Mask | None:
-    """Tell which samples at the start of a run are at rest (n,): the table has not moved yet; None without table_ax."""
+    """Tell which samples at the start of a run are at rest (n,): the table has not moved yet; None without table_ax.
+
+    What a gauge shows at the very start is its noise, hum and drift included, where that is little beside the motion.
+    """
     if "table_ax" not in record:
         return None
-    level = noise(record["table_ax"]).level
+    table = record["table_ax"]
     block = max(8, round(0.02 / record.dt))
-    smooth = np.convolve(np.abs(record["table_ax"] - np.median(record["table_ax"][:block])), np.ones(block) / block)
-    moving = smooth[: len(record)] > 3.0 * level
-    first = int(np.argmax(moving)) - block if moving.any() else len(record)
-    return np.arange(len(record)) < first
+    smooth = np.convolve(np.abs(table - np.median(table[:block])), np.ones(block) / block)[: len(table)]
+    begins = float(np.median(smooth[block : _BEGINS * block])) if len(table) > _BEGINS * block else 0.0
+    level = max(noise(table).level, min(begins, _AT_REST * float(np.std(table))))
+    moving = smooth > 3.0 * level
+    first = int(np.argmax(moving)) - block if moving.any() else len(table)
+    return np.arange(len(table)) < first
 
 
 def measure_steady_level(records: Sequence[Record], channel: str) -> float:

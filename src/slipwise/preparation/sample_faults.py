@@ -15,7 +15,12 @@ from slipwise.preparation.put_right import put_right
 from slipwise.preparation.rounding import NEAR, estimate_chance_of_equal, is_coarse
 from slipwise.preparation.sample_fault import SampleFault
 from slipwise.preparation.signs import find_wrong_signs
-from slipwise.preparation.synchronisation import LateChannels, find_late_cells, find_late_motion
+from slipwise.preparation.synchronisation import (
+    LateChannels,
+    find_late_cells,
+    find_late_motion,
+    find_late_single_cells,
+)
 from slipwise.preparation.tare import find_shifted_zeros, find_tared_cells
 from slipwise.preparation.wrong_units import LIKE_IT, find_wrong_units
 from slipwise.rig import Specimen
@@ -49,6 +54,8 @@ def find_sample_faults(campaign: Campaign) -> list[SampleFault]:
     steady = bridge_outliers(campaign)
     late = _late(campaign, find_late_motion(steady))
     late += _late(campaign, find_late_cells(put_right(steady, late)))
+    for one in find_late_single_cells(put_right(steady, late)):
+        late += _late(campaign, one)
     steady = put_right(steady, late)
     scaled = _scaled(steady)
     steady = put_right(steady, scaled)

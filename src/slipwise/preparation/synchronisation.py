@@ -13,6 +13,9 @@ Accelerometers or slip gauges on a second logger that was started late: found by
 
 holds at one lag only. The girder's accelerometers may be late, the table's, or both together, which is one with slip
 gauges that are early: friction, which follows the slip, tells which of the two is out of step with the cells.
+
+One cell on a module of its own: found by the other cells of its kind, which a rigid girder loads and drags alike. One
+lag counts for all runs: a single tone is explained as well by a half period as by a wrong sign, an earthquake is not.
 """
 
 from collections.abc import Mapping, Sequence
@@ -147,6 +150,40 @@ def _lag(run: Run, specimen: Specimen) -> float | None:
     return dt * (
         best + locate_vertex(*(compute_explained_share(force, states, best + beside) for beside in (-1, 0, 1)))
     )
+
+
+def find_late_single_cells(campaign: Campaign) -> list[LateChannels]:
+    """Return the pads' cells that are late by themselves, of a girder that slides by itself, each with its delay."""
+    found: list[LateChannels] = []
+    for kind in ("N", "Fx", "Fy") if campaign.specimen.free else ():
+        names = [f"pad_{pad}_{kind}" for pad in campaign.specimen.pads]
+        records = [run.record for run in campaign.runs if run.record.has_all(*names)]
+        moving = [r for r in records if all(np.isfinite(r[n]).all() and np.ptp(r[n]) > 0.0 for n in names)]
+        late = [one for name in names if moving and (one := _late_beside(moving, name, names))]
+        found += late if len(late) == 1 else []  # of cells that contradict each other none is known to be late
+    return found
+
+
+def _late_beside(records: Sequence[Record], name: str, names: Sequence[str]) -> LateChannels | None:
+    """Return a cell with its lag behind the others; None where it is in step, or resembles them at no lag."""
+    dt = records[0].dt
+    pairs = [(r[name], [r[other] for other in names if other != name]) for r in records]
+    sizes = [float(np.var(late)) * len(late) for late, _ in pairs]
+
+    def share(lag: int) -> float:
+        own = [size * compute_explained_share(*pair, lag) for size, pair in zip(sizes, pairs, strict=True)]
+        return sum(own) / sum(sizes)
+
+    in_step = share(0)
+    if in_step > 1.0 - MORE:
+        return None
+    most = min(round(MOST / dt), *(len(late) // 2 for late, _ in pairs))
+    middles = {find_strongest_lag(late, state, most) for late, states in pairs for state in states}
+    shares = {lag: share(lag) for middle in middles for lag in range(middle - _BESIDE, middle + _BESIDE + 1)}
+    best = max(shares, key=lambda lag: shares[lag])
+    if abs(best) * dt < LEAST or shares[best] < max(EXPLAINED, in_step + MORE):
+        return None
+    return LateChannels((name,), dt * (best + locate_vertex(*(share(best + beside) for beside in (-1, 0, 1)))))
 
 
 @dataclass(frozen=True)
