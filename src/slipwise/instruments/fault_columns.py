@@ -128,13 +128,20 @@ def columns_of_faults(
                 changed = with_records(at.runs, lambda r, s=suspect, z=size: s.distort(r, z * s.least))
                 change = at.changed(changed, suspect, at.stack)
                 changes.append({n: rows / -size for n, rows in change.items()})
-        for change in changes:
+        blind = _list_blind_relations(case, suspect)
+        for change in ({n: rows for n, rows in one.items() if n not in blind} for one in changes):
             if any(np.any(rows) for rows in change.values()):
                 number = forms[label] = forms.get(label, -1) + 1
                 block, noise = {n: rows[:, None] for n, rows in change.items()}, _noise_with_itself(at, suspect)
                 column = FaultColumn(label, _kind(suspect), True, number, not suspect.one_sided, suspect, block, noise)
                 found.append(column)
     return found
+
+
+def _list_blind_relations(case: Case, suspect: Suspect) -> set[str]:
+    """Return the relations that say nothing of a fault: one factor of all its channels only shrinks what is left."""
+    own = set(suspect.channels)
+    return {r.name for r in case.relations if own.issuperset(r.needs)} if suspect.fault.scales else set()
 
 
 def _noise_with_itself(at: BalancesAt, suspect: Suspect) -> dict[str, float]:
