@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from slipwise.noise.gauges import measure_gauge_noise
+from slipwise.noise.gauges import find_rest_before_motion, measure_gauge_noise
 from slipwise.record import Record
 from slipwise.signals.filters import LowPass, lowpass
 from slipwise.view.words.gauge_rows import gauge_rows
@@ -42,6 +42,20 @@ def test_the_basis_of_a_level_is_told(record, basis):
     assert measure_gauge_noise([record])["slip_x"].basis.startswith(
         (basis, "differences" if basis[0] == "t" else basis)
     )
+
+
+def test_hum_and_slow_noise_of_the_tables_gauge_do_not_end_a_rest():
+    record = moved(800, 5e-5)
+    slow = 0.02 * lfilter([0.4], [1.0, -0.9], np.random.default_rng(3).standard_normal(len(TIME)))
+    humming = record.replaced(table_ax=record["table_ax"] + 0.05 * np.sin(2.0 * np.pi * 50.0 * TIME) + slow)
+    assert np.count_nonzero(find_rest_before_motion(humming)) == pytest.approx(800, abs=30)
+
+
+@pytest.mark.parametrize("beginning", [0.0, 0.4, 0.8])
+def test_a_record_that_begins_in_motion_has_no_rest(beginning):
+    record = moved(0, 5e-5)
+    table = 2.0 * np.sin(12.0 * TIME + beginning)
+    assert np.count_nonzero(find_rest_before_motion(record.replaced(table_ax=table))) < 24
 
 
 def test_a_constant_is_no_measurement_and_the_reason_is_told():

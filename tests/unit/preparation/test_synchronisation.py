@@ -38,8 +38,19 @@ def test_how_late_cells_are_is_found_within_two_milliseconds(sound: Campaign, de
     assert found.delay == pytest.approx(delay, abs=2e-3)
 
 
-def test_one_cell_that_is_late_alone_is_a_matter_of_the_fit(sound: Campaign) -> None:
-    assert find_late_cells(late_by(sound, 0.3, CELLS[:2])) is None
+@pytest.mark.parametrize("delay", [0.18, -0.3])
+def test_a_cell_on_a_late_module_is_found_by_the_others_and_is_not_taken_for_turned(
+    sound: Campaign, delay: float
+) -> None:
+    campaign = late_by(sound, delay, ("pad_A_Fx",))
+    assert find_late_cells(campaign) is None
+    found = {fault.channels: (fault.kind, fault.size) for fault in find_sample_faults(campaign)}
+    assert found == {("pad_A_Fx",): ("late", pytest.approx(delay, abs=2e-3))}
+
+
+def test_of_two_cells_that_contradict_each_other_none_is_called_late(sound: Campaign) -> None:
+    both = late_by(late_by(sound, 0.2, ("pad_A_Fx",)), -0.2, ("pad_B_Fx",))
+    assert "late" not in {fault.kind for fault in find_sample_faults(both)}
 
 
 def test_late_cells_are_brought_forward_and_their_end_is_not_judged(sound: Campaign) -> None:
