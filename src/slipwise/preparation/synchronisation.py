@@ -34,8 +34,8 @@ from slipwise.signals.filters import LowPass, lowpass
 from slipwise.signals.second_derivative import second_derivative
 from slipwise.signals.shift import shift
 
-#: Lags that are looked for [s]; what is below the first is the fits' own business.
-LEAST, MOST = 0.05, 6.0
+#: Lags that are looked for [s]; what is below the first is a small change of the records, which the fits tell.
+LEAST, MOST = 0.012, 6.0
 #: Share of a channel's variance that must be explained at the lag, and by how much more than without one [1].
 EXPLAINED, MORE = 0.7, 0.1
 #: Runs agree on a lag within so many samples.
