@@ -73,7 +73,7 @@ def effect_page(row: dict[str, Any]) -> str:
     target = f", on one {row['target']}" if row["target"] else ""
     parts = [
         f"# {name}\n\n{row['summary']}\n\n```text\n{row['equation']}\n```",
-        f"It acts on [port](../contributing.md#ports) `{row['port']}`{target}; in a verdict it belongs to "
+        f"It acts on [port](../effect_contract.md#ports) `{row['port']}`{target}; in a verdict it belongs to "
         f"*{row['component']}*.",
         f"![What {name} does at typical size, and below what it adds](pictures/{name}.png)",
         "*At typical size on Bridge 1 with the paper's law: slip of 10 mm at 1.25 Hz along x and 1 mm across, 1.5 m/s² "

@@ -87,9 +87,15 @@ def with_heads(markdown: str) -> str:
             heads = named if len(named) >= _WIDE or _FOLDED in named else []
         elif heads:
             cells = zip(_cells(line), heads, strict=True)
-            told = (f'{cell.rstrip()} {{ data-head="{head}" }}' if cell.strip() else cell for cell, head in cells)
+            told = (_with_head(cell, head) if cell.strip() else cell for cell, head in cells)
             lines[i] = f"|{' |'.join(told)} |"
     return "\n".join(lines)
+
+
+def _with_head(cell: str, head: str) -> str:
+    """Return a cell with its head; a brace in its words would be taken for the begin of attributes."""
+    words = cell if "`" in cell else cell.replace("{", "&#123;")
+    return f'{words.rstrip()} {{ data-head="{head}" }}'
 
 
 def _cells(row: str) -> list[str]:
