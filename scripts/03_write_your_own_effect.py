@@ -43,7 +43,7 @@ Source: assumed, for a tutorial.
 
 from math import exp
 
-from slipwise.effects import RESPONSE, Diagnosis, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -74,7 +74,7 @@ EFFECT = Effect(
         Parameter("time_constant", "s", 0.03, 1e-3, 1.0, None, "assumed", "t_c: of creep", "ms"),
     ),
     memory=("late_load", "started"),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="A_r lags behind N by t_c",
         moves=RESPONSE,

@@ -25,7 +25,7 @@ Source: assumed, for a tutorial.
 
 from math import exp
 
-from slipwise.effects import RESPONSE, Diagnosis, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -47,7 +47,7 @@ EFFECT = Effect(
         Parameter("distance", "m", 0.5, 0.01, 10.0, None, "assumed", "s_0: in which the film is laid down"),
     ),
     memory=("slid",),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="mu *= 1 + r exp(-s/s_0)",
         moves=RESPONSE,

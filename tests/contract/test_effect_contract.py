@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from slipwise.effects import CONTRACT, Diagnosis, Effect, Gauges, Rare, load_effect, skeleton, write_effect
+from slipwise.effects import CONTRACT, Effect, ForDiagnosis, Gauges, Rare, load_effect, skeleton, write_effect
 from slipwise.errors import SettingError, SlipwiseWarning
 from slipwise.testing import ContractError, check_effect
 
@@ -23,7 +23,7 @@ Valid: V below 1 m/s.
 Source: assumed, an example.
 """
 
-from slipwise.effects import RESPONSE, Diagnosis, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -36,7 +36,7 @@ EFFECT = Effect(
     contract=1,
     port="shear",
     parameters=(Parameter("rise", "s/m", 0.05, 0.0, 0.5, 0.0, "assumed", "c: rise with speed"),),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="mu += c V",
         moves=RESPONSE,
@@ -101,7 +101,7 @@ def test_an_effect_that_breaks_the_contract_is_told_of_every_breach(tmp_path: Pa
 def test_a_newcomer_reads_twelve_fields() -> None:
     """Those of every effect, up to the other blocks, and those of a diagnosis."""
     own = [f.name for f in fields(Effect)]
-    assert len(own[: own.index("gauges")]) + len(fields(Diagnosis)) <= 12
+    assert len(own[: own.index("gauges")]) + len(fields(ForDiagnosis)) <= 12
 
 
 def test_every_field_of_a_block_is_read_from_the_effect(tmp_path: Path) -> None:
@@ -113,9 +113,9 @@ def test_every_field_of_a_block_is_read_from_the_effect(tmp_path: Path) -> None:
 
 
 FLAT = (
-    VISCOUS.replace("    diagnosis=Diagnosis(\n", "")
+    VISCOUS.replace("    diagnosis=ForDiagnosis(\n", "")
     .replace("    ),\n)\n", '    gauges=Gauges(sits="alone"),\n    lag="rise",\n    steady="the load",\n)\n')
-    .replace("Diagnosis, Effect", "Effect, Gauges")
+    .replace("Effect, ForDiagnosis", "Effect, Gauges")
     .replace("        ", "    ")
 )
 
@@ -128,7 +128,7 @@ def test_a_file_that_knows_no_blocks_works_and_is_told_once_what_to_write(tmp_pa
     assert (effect.gauges, effect.rare) == (Gauges(sits="alone", lag="rise"), Rare(steady="the load"))
     (words,) = (str(each.message) for each in told)
     assert "viscous.py works as it is" in words and "gauges=Gauges(lag=...)" in words
-    assert "diagnosis=Diagnosis(component=..., equation=..., moves=..., signature=..., confused_with=...)" in words
+    assert "diagnosis=ForDiagnosis(component=..., equation=..., moves=..., signature=..., confused_with=...)" in words
     assert effect.advice == (words,)
 
 

@@ -35,7 +35,7 @@ Source: assumed.
 
 from math import pi, sin
 
-from slipwise.effects import RESPONSE, Diagnosis, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -51,7 +51,7 @@ EFFECT = Effect(
         Parameter("height", "1", 0.2, -0.5, 0.5, 0.0, "assumed", "c"),
         Parameter("length", "m", 0.01, 1e-3, 0.1, None, "assumed", "l", "mm"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="mu *= 1 + c sin(2 pi x/l)",
         moves=RESPONSE,
@@ -223,7 +223,7 @@ def test_a_package_offers_an_effect_by_an_entry_point(tmp_path: Path, monkeypatc
 def beside(block: str) -> str:
     """The file with another block beside that of the diagnosis."""
     text = MINE.replace("    diagnosis=", f"    {block},\n    diagnosis=")
-    return text.replace("Diagnosis, Effect", "Diagnosis, Effect, Gauges, Rare")
+    return text.replace("Effect, ForDiagnosis", "Effect, ForDiagnosis, Gauges, Rare")
 
 
 REFUSED = {

@@ -61,7 +61,7 @@ Valid: as a reference case only.
 Source: the first line of the reference file.
 """
 from math import exp, tanh
-from slipwise.effects import Diagnosis, Effect, Rare
+from slipwise.effects import Effect, ForDiagnosis, Rare
 from slipwise.params import Parameter
 
 def shear(load, real_area, pressure, speed, slow):
@@ -70,7 +70,7 @@ def shear(load, real_area, pressure, speed, slow):
 
 EFFECT = Effect(port="shear", contract=1,
     parameters=(Parameter("slow", "1", 0.05, 0.0, 1.0, None, "the reference file", "friction at zero speed"),),
-    diagnosis=Diagnosis("pad friction", "mu(P, v)", moves=("*",), signature="another program's", confused_with={}),
+    diagnosis=ForDiagnosis("pad friction", "mu(P, v)", moves=("*",), signature="another program's", confused_with={}),
     rare=Rare(replaces="constant shear strength"))
 '''
 

@@ -4,7 +4,7 @@ from slipwise.effects._by_pad import for_pads
 from slipwise.effects._catalogue import base_effects, catalogue, find_effect, load_effect
 from slipwise.effects._effect import CONTRACT, RESPONSE, Effect, moved_channels
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import NEEDS, Diagnosis, Gauges, Limit, Rare
+from slipwise.effects._fields import NEEDS, ForDiagnosis, Gauges, Limit, Rare
 from slipwise.effects._hooks import (
     COMPONENTS,
     DERIVED,
@@ -38,7 +38,7 @@ __all__ = [
     "PORTS",
     "RIG_MOTION",
     "RESPONSE",
-    "Diagnosis",
+    "ForDiagnosis",
     "Effect",
     "GaugeFault",
     "Gauges",

@@ -37,9 +37,9 @@ Of whole arrays:
     flat(coefficient, ...) -> {parameter: value}   at which a law over speed is a constant coefficient of friction
     corner(...) -> frequency [Hz]                  of a gauge's filter: it takes what is above
 
-`EFFECT` declares in blocks what hooks cannot say: `Diagnosis`, for a fault of a gauge `Gauges`, and rarely `Rare`. No
-other file knows an effect by its name, so that a user's own file has every right that a file of the catalogue has, but
-for a role in the base model and faults that are found in samples.
+`EFFECT` declares in blocks what hooks cannot say: `ForDiagnosis`, `Gauges` for a fault of a gauge, and rarely `Rare`.
+No other file knows an effect by its name, so that a user's own file has every right that a file of the catalogue has,
+but for a role in the base model and faults that are found in samples.
 """
 
 import fnmatch
@@ -51,7 +51,7 @@ from typing import Any
 
 from slipwise.channels import CHANNELS
 from slipwise.display import Drawn, Tabular
-from slipwise.effects._fields import COMPONENT_NEEDS, NEEDS, Diagnosis, Gauges, Rare
+from slipwise.effects._fields import COMPONENT_NEEDS, NEEDS, ForDiagnosis, Gauges, Rare
 from slipwise.effects._flat_fields import BlockFields, takes_flat_fields, what_to_write
 from slipwise.effects._hooks import DERIVED, HOOKS, PAD_HOOKS
 from slipwise.errors import unknown_name
@@ -93,7 +93,7 @@ class Effect(BlockFields, Drawn, Tabular):
 
     port: str
     parameters: tuple[Parameter, ...]
-    diagnosis: Diagnosis
+    diagnosis: ForDiagnosis
     memory: tuple[str, ...] = ()
     contract: int = 0
     gauges: Gauges = field(default_factory=Gauges)

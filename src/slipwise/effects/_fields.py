@@ -55,7 +55,7 @@ class Limit:
 
 @short_repr
 @dataclass(frozen=True)
-class Diagnosis:
+class ForDiagnosis:
     """What a diagnosis needs to know of an effect.
 
     Attributes:

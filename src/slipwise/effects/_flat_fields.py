@@ -5,13 +5,13 @@ from dataclasses import fields, replace
 from functools import wraps
 from typing import Any, Generic, TypeVar
 
-from slipwise.effects._fields import Diagnosis, Gauges, Rare
+from slipwise.effects._fields import ForDiagnosis, Gauges, Rare
 
 Value = TypeVar("Value")
 Class = TypeVar("Class", bound=type)
 #: Field of `Effect` -> the block that it is.
-_BLOCKS: dict[str, type[Diagnosis] | type[Gauges] | type[Rare]] = {
-    "diagnosis": Diagnosis, "gauges": Gauges, "rare": Rare,
+_BLOCKS: dict[str, type[ForDiagnosis] | type[Gauges] | type[Rare]] = {
+    "diagnosis": ForDiagnosis, "gauges": Gauges, "rare": Rare,
 }  # fmt: skip
 
 
@@ -28,7 +28,7 @@ class _Read(Generic[Value]):
 class BlockFields:
     """An effect's blocks, whose fields are read from the effect itself: `effect.moves` is `effect.diagnosis.moves`."""
 
-    diagnosis: Diagnosis
+    diagnosis: ForDiagnosis
     gauges: Gauges
     rare: Rare
 

@@ -15,7 +15,7 @@ from slipwise.channels import CHANNELS
 from slipwise.effects._contract_check import check_answer, try_instant
 from slipwise.effects._effect import CONTRACT, Effect
 from slipwise.effects._fault import SAMPLE_FAULTS
-from slipwise.effects._fields import BASE_ROLES, ENDS, NEEDS, SITS, Diagnosis, Gauges, Limit, Rare
+from slipwise.effects._fields import BASE_ROLES, ENDS, NEEDS, SITS, ForDiagnosis, Gauges, Limit, Rare
 from slipwise.effects._flat_fields import what_to_write
 from slipwise.effects._hooks import COMPONENTS, HOOKS, LAGGING, PORTS, SIDES
 from slipwise.errors import SettingError, SlipwiseWarning, unknown_name
@@ -94,7 +94,7 @@ def _check_declared(path: Path, effect: Effect) -> None:
     Raises:
         SettingError: with what is possible.
     """
-    for name, block in (("diagnosis", Diagnosis), ("gauges", Gauges), ("rare", Rare)):
+    for name, block in (("diagnosis", ForDiagnosis), ("gauges", Gauges), ("rare", Rare)):
         if not isinstance(getattr(effect, name), block):
             raise SettingError(f"{path.name}: write {name}={block.__name__}(...) in EFFECT, from slipwise.effects")
     for name, kind in (("parameters", Parameter), ("moves", str), ("memory", str), ("needs", str), ("limits", Limit)):

@@ -44,7 +44,7 @@ EFFECT = Effect(
 '''
 #: What every file imports, and nearly every one.
 _ALWAYS: dict[str, str] = {
-    "Effect": "slipwise.effects", "Diagnosis": "slipwise.effects", "Parameter": "slipwise.params",
+    "Effect": "slipwise.effects", "ForDiagnosis": "slipwise.effects", "Parameter": "slipwise.params",
     "RESPONSE": "slipwise.effects", "Gauges": "slipwise.effects",
 }  # fmt: skip
 
@@ -204,7 +204,7 @@ def _entries(written: WrittenEffect) -> dict[str, str]:
         f"signature={_quoted(written.signature)}",
         f"confused_with={_lines('{', rivals, '}', 8)}",
     )
-    entries["diagnosis"] = _lines("Diagnosis(", diagnosis, ")", 4)
+    entries["diagnosis"] = _lines("ForDiagnosis(", diagnosis, ")", 4)
     return entries | ({"gauges": f"Gauges(target={_quoted(written.target)})"} if written.target else {})
 
 

@@ -11,7 +11,7 @@ Source: 1.0 to 1.2 with the lay of the polish, assumed; the bound is an ellipse.
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 
 SLOW = 1e-3
@@ -28,7 +28,7 @@ EFFECT = Effect(
     parameters=(
         Parameter("ratio", "1", 1.1, 0.5, 2.0, 1.0, "1.0 to 1.2, assumed", "r: friction across over along"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="F = mu N (v_x, r v_y)/|v|",
         moves=RESPONSE,

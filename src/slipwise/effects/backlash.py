@@ -11,7 +11,7 @@ Source: Coble et al. (2022) for a banded rotary friction damper with backlash; s
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Limit
+from slipwise.effects._fields import ForDiagnosis, Limit
 from slipwise.params import Parameter
 
 
@@ -29,7 +29,7 @@ EFFECT = Effect(
         Parameter("play", "m", 1e-3, 0.0, 20e-3, 0.0, "assumed: 0.1 to 5 mm", "g: of the joints", "mm"),
         Parameter("push", "1", 0.02, 0.002, 0.2, None, "assumed", "p: load's share that goes through the play", "%"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="x_c = x - (g/2) sign F",
         moves=RESPONSE,

@@ -19,7 +19,7 @@ from math import exp
 import numpy as np
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Rare
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 
 
@@ -55,7 +55,7 @@ EFFECT = Effect(
         Parameter("length", "m", 1e-3, 1e-5, 0.1, None, "assumed", "L: of slip that uses it up", "mm"),
     ),
     memory=("age",),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="mu += dmu (1 + b z) exp[-(V/v_s)^q],  dz/dt = (1 - z)/t_r - V z/L",
         moves=RESPONSE,

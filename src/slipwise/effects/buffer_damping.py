@@ -19,7 +19,7 @@ import numpy as np
 
 from slipwise.effects._disturbances import Number, axes, channel
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Rare
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 from slipwise.record import Record
 from slipwise.signals.derivative import derivative
@@ -57,7 +57,7 @@ EFFECT = Effect(
         Parameter("relaxation", "s", 0.0, 0.0, 0.2, None, "Kelvin-Voigt: 0", "t_r: of a spring in series", "ms"),
     ),
     memory=("dashpot",),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="buffer",
         equation="F_b += z,  t_r dz/dt + z = c v (p = 1)",
         moves=RESPONSE,

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 
 from slipwise.effects._disturbances import Number, axes, channel
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 from slipwise.record import Record
 
@@ -38,7 +38,7 @@ EFFECT = Effect(
         Parameter("gain", "1", 0.1, -0.3, 2.0, 0.0, "0.05 to 0.5, assumed", "g: force added at 30 mm", "%"),
         Parameter("power", "1", 2.0, 0.5, 8.0, None, "assumed: 2", "p: 2 is a cubic spring"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="buffer",
         equation="F_b *= 1 + g (|x|/30 mm)^p",
         moves=RESPONSE,

@@ -12,7 +12,7 @@ Source: equilibrium of moments; 0.1 m assumed.
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Rare
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 from slipwise.rig import Specimen
 
@@ -28,7 +28,7 @@ EFFECT = Effect(
     parameters=(
         Parameter("height", "m", 0.1, -0.3, 1.0, 0.0, "assumed", "z_b: above the rated place", "mm"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="buffer",
         equation="pitch -= F_b z_b/b_x",
         moves=RESPONSE,

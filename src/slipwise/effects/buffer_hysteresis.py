@@ -19,7 +19,7 @@ import numpy as np
 
 from slipwise.effects._disturbances import Number, axes, channel, dahl_force
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 from slipwise.record import Record
 
@@ -66,7 +66,7 @@ EFFECT = Effect(
         Parameter("exponent", "1", 1.0, 0.0, 1.0, None, "Dahl (1968): 1", "i: 1 Dahl, 0 elastic-plastic"),
     ),
     memory=("loop", "last"),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="buffer",
         equation="F_b += H z,  dz/ds = (1 - z)^i/u",
         moves=RESPONSE,

@@ -10,7 +10,7 @@ Source: two springs side by side; sizes assumed.
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -25,7 +25,7 @@ EFFECT = Effect(
     parameters=(
         Parameter("difference", "1", 0.05, -0.5, 0.5, 0.0, "10 % between two, assumed", "d: buffer 1 over mean", "%"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="buffer",
         equation="k_1 = k (1 + d),  k_2 = k (1 - d)",
         moves=RESPONSE,

@@ -17,7 +17,7 @@ import numpy as np
 
 from slipwise.effects._disturbances import Number, axes, channel
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 from slipwise.record import Record
 
@@ -52,7 +52,7 @@ EFFECT = Effect(
         Parameter("shape", "1", 1.0, 0.5, 4.0, None, "assumed: 1 to 2", "q: how it ends over the stroke"),
     ),
     memory=("largest",),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="buffer",
         equation="F_b *= 1 + m exp[-(x_max/x_0)^q]",
         moves=RESPONSE,

@@ -13,7 +13,7 @@ Source: Newton's second law for the plate; sizes assumed.
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import Diagnosis, Gauges, Rare
+from slipwise.effects._fields import ForDiagnosis, Gauges, Rare
 from slipwise.effects._gauges import aimed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -48,7 +48,7 @@ EFFECT = Effect(
         Parameter("horizontal", "1", 1.0, -1.5, 1.5, None, "1 by Newton for these signs", "h: horizontal share"),
         Parameter("weighed", "1", 0.0, 0.0, 1.0, None, "assumed: in the zero", "w: share of its weight that is read"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="instrument",
         equation="N_read = N + m_c a_z,  F_read = F - h m_c a",
         moves=("pad_*_F?", "pad_*_N"),

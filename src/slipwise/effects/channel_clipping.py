@@ -14,7 +14,7 @@ import numpy as np
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import Diagnosis, Gauges
+from slipwise.effects._fields import ForDiagnosis, Gauges
 from slipwise.effects._gauges import changed, span
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -32,7 +32,7 @@ EFFECT = Effect(
         Parameter("upper", "1", 0.25, 0.005, 1000.0, 1000.0, "assumed", "q: in spans of the gauge", "%"),
         Parameter("lower", "1", 0.25, 0.005, 1000.0, 1000.0, "assumed", "r: in spans of the gauge", "%"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="instrument",
         equation="y = min(max(x, -r S), q S)",
         moves=("*",),

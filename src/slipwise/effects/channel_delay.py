@@ -12,7 +12,7 @@ Source: definition; 1 to 10 ms assumed.
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import Diagnosis, Gauges
+from slipwise.effects._fields import ForDiagnosis, Gauges
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -33,7 +33,7 @@ EFFECT = Effect(
     contract=1,
     port="gauge",
     parameters=(Parameter("delay", "s", 2e-3, -0.05, 0.05, 0.0, "1 to 10 ms, assumed", "tau: late by", "ms"),),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="instrument",
         equation="y(t) = x(t - tau)",
         moves=("*",),

@@ -13,7 +13,7 @@ import numpy as np
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import Diagnosis, Gauges
+from slipwise.effects._fields import ForDiagnosis, Gauges
 from slipwise.effects._gauges import changed, span
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -38,7 +38,7 @@ EFFECT = Effect(
         Parameter("drift", "1/s", 2e-4, -0.02, 0.02, 0.0, "assumed: 1.2 % a minute", "d: spans a second", "%/min"),
         Parameter("settling", "1/s", 0.0, 0.0, 5.0, None, "assumed: straight", "w: 0 straight, else it settles"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="instrument",
         equation="y = x + d S t (w = 0)",
         moves=("*",),

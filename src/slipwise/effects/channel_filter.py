@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import Diagnosis, Gauges
+from slipwise.effects._fields import ForDiagnosis, Gauges
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -62,7 +62,7 @@ EFFECT = Effect(
         Parameter("lag", "s", 3e-3, 0.0, 0.05, 0.0, "f_c 20 to 50 Hz, assumed", "T: of slow signals", "ms"),
         Parameter("order", "1", 2.0, 1.0, 8.0, None, "assumed", "of the filter", whole=True),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="instrument",
         equation="y = x / (1 + s T + s^2 T^2/2)",
         moves=("*",),

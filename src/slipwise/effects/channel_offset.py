@@ -11,7 +11,7 @@ Source: definition; spans of usual gauges and size assumed.
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import Diagnosis, Gauges, Rare
+from slipwise.effects._fields import ForDiagnosis, Gauges, Rare
 from slipwise.effects._gauges import changed, span
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -31,7 +31,7 @@ EFFECT = Effect(
     contract=1,
     port="gauge",
     parameters=(Parameter("offset", "1", 0.002, -0.2, 0.2, 0.0, "assumed", "o: in spans of the gauge", "%"),),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="instrument",
         equation="y = x + o S",
         moves=("*",),

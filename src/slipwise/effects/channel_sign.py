@@ -11,7 +11,7 @@ Source: definition.
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import Diagnosis, Gauges
+from slipwise.effects._fields import ForDiagnosis, Gauges
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -31,7 +31,7 @@ EFFECT = Effect(
     contract=1,
     port="gauge",
     parameters=(Parameter("sign", "1", -1.0, -1.0, 1.0, 1.0, "definition", "below zero: turned"),),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="instrument",
         equation="y = -x",
         moves=("*",),

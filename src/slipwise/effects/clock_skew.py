@@ -16,7 +16,7 @@ from scipy.ndimage import map_coordinates
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import Diagnosis, Gauges
+from slipwise.effects._fields import ForDiagnosis, Gauges
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -50,7 +50,7 @@ EFFECT = Effect(
     contract=1,
     port="gauge",
     parameters=(Parameter("skew", "1", 1e-4, -2e-3, 2e-3, 0.0, "10 to 200 ppm, assumed", "e: of the clock", "ppm"),),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="instrument",
         equation="y(t) = x(t (1 - e))",
         moves=("*",),

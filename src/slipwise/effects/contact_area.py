@@ -17,7 +17,7 @@ Source: paper, eq. (3); k = 0.102 from the identification below eq. (8), its uni
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Rare
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.effects._saturation import risen
 from slipwise.params import Parameter
 
@@ -36,7 +36,7 @@ EFFECT = Effect(
             "k: how fast the real area fills the apparent one", "1/MPa",
         ),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="A_r = A [1 - exp(-k P)]",
         moves=RESPONSE,

@@ -10,7 +10,7 @@ Source: assumed.
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Rare
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 
 
@@ -27,7 +27,7 @@ EFFECT = Effect(
     parameters=(
         Parameter("difference", "1", 0.03, -0.3, 0.3, 0.0, "assumed", "d: half the difference of the directions", "%"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="mu *= 1 + d v_x/|v|",
         moves=RESPONSE,

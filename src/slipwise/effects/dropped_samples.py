@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import Diagnosis, Gauges
+from slipwise.effects._fields import ForDiagnosis, Gauges
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -41,7 +41,7 @@ EFFECT = Effect(
         Parameter("share", "1", 0.02, 0.0, 0.5, 0.0, "assumed", "of samples lost", "%"),
         Parameter("burst", "1", 1.0, 1.0, 100.0, None, "assumed", "samples lost at a time"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="instrument",
         equation="y_i = y_(i-1) for a share of the samples",
         moves=("*",),

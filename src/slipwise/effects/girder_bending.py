@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from slipwise.arrays import Array
 from slipwise.effects._disturbances import Number, swing_of
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -80,7 +80,7 @@ EFFECT = Effect(
         Parameter("damping", "1", 0.02, 0.002, 0.2, None, "assumed", "z: of critical", "%"),
         Parameter("midspan", "1", 0.0, 0.0, 1.0, None, "0 over the pads, 1 in the middle", "gauge of a_z", whole=True),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="girder",
         equation="q'' + 2 z w q' + w^2 q = -a_z,  sum N += m_e q''",
         moves=RESPONSE,

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Rare
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 
@@ -41,7 +41,7 @@ EFFECT = Effect(
         Parameter("damping", "N*s/m", 500.0, 0.0, 50e3, 0.0, "0 to 0.5 kN s/m, assumed", "c: at v_0", "kN*s/m"),
         Parameter("exponent", "1", 1.0, 1.0, 2.0, None, "guides 1, air 2", "p: 1 for a dashpot"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="girder",
         equation="m a_x + sum F + F_b + c v = 0 (p = 1)",
         moves=RESPONSE,

@@ -26,7 +26,7 @@ from math import exp, expm1, log, pi, sqrt
 import numpy as np
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 
 RATIO, FIRST, TERMS = 7.0, 0.02, 8
@@ -89,7 +89,7 @@ EFFECT = Effect(
         *(f"heat_{i}" for i in range(TERMS)), "body", "temperature_rise",
         *(f"{what}_{i}" for what in ("kept", "taken") for i in range(TERMS + 1)), "step", "cooling",
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="mu *= k(T), T from the flux F V/A through 1/sqrt(t)",
         moves=RESPONSE,

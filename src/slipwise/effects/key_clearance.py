@@ -17,7 +17,7 @@ import numpy as np
 
 from slipwise.effects._disturbances import Number, axes, channel
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 from slipwise.record import Record
 
@@ -63,7 +63,7 @@ EFFECT = Effect(
         ),
         Parameter("release", "1", 1.0, 0.0, 1.0, None, "Hunt & Crossley (1975): 1", "r: damping as the key comes out"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="buffer",
         equation="F_b = k dz(x, c)",
         moves=RESPONSE,

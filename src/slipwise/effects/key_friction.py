@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from slipwise.effects._disturbances import Number, channel, dahl_force, recorded, total_loads
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.effects._prandtl import prandtl
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
@@ -73,7 +73,7 @@ EFFECT = Effect(
         Parameter("elastic", "1/m", 0.0, 0.0, 2e6, None, "assumed: stiff", "e: 1 over the way it gives"),
     ),
     memory=("given_way",),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="buffer",
         equation="V = -mu_k |F_b| [z + tanh(w/w_0)],  dz/dt = e w",
         moves=RESPONSE,

@@ -13,7 +13,7 @@ Source: definition; sizes assumed.
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import Diagnosis, Gauges, Rare
+from slipwise.effects._fields import ForDiagnosis, Gauges, Rare
 from slipwise.effects._gauges import aimed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -44,7 +44,7 @@ EFFECT = Effect(
         Parameter("share", "1", 0.01, -0.3, 0.3, 0.0, "0.5 to 2 %, assumed", "c: of N in F", "%"),
         Parameter("zeroed", "1", 0.0, 0.0, 1.0, None, "assumed", "z: 1 if zeroed under load"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="instrument",
         equation="F_read = F + c (N - z N_0)",
         moves=("pad_*_F?", "pad_*_N"),

@@ -14,7 +14,7 @@ Source: Rice & Ruina (1983), spring and slider; stiffnesses assumed.
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Limit
+from slipwise.effects._fields import ForDiagnosis, Limit
 from slipwise.params import Parameter
 
 
@@ -29,7 +29,7 @@ EFFECT = Effect(
     parameters=(
         Parameter("compliance", "m/N", 20e-9, 0.0, 5e-6, 0.0, "assumed: 50 kN/mm", "c: of the machine", "um/kN"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="x_c = x - c F",
         moves=RESPONSE,

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from slipwise.effects._disturbances import Number, total_loads
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Rare
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -51,7 +51,7 @@ EFFECT = Effect(
         Parameter("along", "m", 0.02, -0.3, 0.3, 0.0, "0.01 to 0.1 m, assumed", "x_c: towards +x", "mm"),
         Parameter("across", "m", 0.0, -0.3, 0.3, 0.0, "0.01 to 0.1 m, assumed", "y_c: towards +y", "mm"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad load",
         equation="N_i += m (g + a_z) [x_c side_x/(4 b_x) + y_c side_y/(4 b_y)]",
         moves=RESPONSE,

@@ -11,7 +11,7 @@ Source: PTFE of 4 to 5 mm and 0.5 to 0.9 GPa gives 145 to 330 kN/mm; 5 % of crit
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Rare
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 from slipwise.rig import Specimen
 
@@ -33,7 +33,7 @@ EFFECT = Effect(
             "damping", "N*s/m", 70.7e3, 0.0, 1e6, None, "assumed: 5 % of critical", "c_v: of each pad", "kN*s/m",
         ),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad load",
         equation="N = max(0, k_v d + c_v dd/dt)",
         moves=RESPONSE,

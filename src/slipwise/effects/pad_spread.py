@@ -15,7 +15,7 @@ from collections.abc import Iterator, Sequence
 
 from slipwise.effects._disturbances import Number, paired
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 from slipwise.record import Record
 from slipwise.rig import Specimen
@@ -46,7 +46,7 @@ EFFECT = Effect(
             "level", "1", 0.0, -0.5, 1.0, 0.0, "assumed", "l_i: of a pad over the first one", "%", by_pad="others",
         ),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="mu_i *= 1 + p side_x + r side_y + w side_x side_y + l_i",
         moves=RESPONSE,

@@ -12,7 +12,7 @@ Source: lubricated pads 0.1 to 0.4 of the friction, dirty ones 1.1 to 1.5; shape
 from math import exp
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Limit
+from slipwise.effects._fields import ForDiagnosis, Limit
 from slipwise.params import Parameter
 
 
@@ -45,7 +45,7 @@ EFFECT = Effect(
         Parameter("width", "m", 5e-3, 1e-3, 0.05, None, "assumed", "l: half width of the patch", "mm"),
         Parameter("edge", "1", 2.0, 1.0, 12.0, None, "assumed: 2 is Gaussian", "q: sharpness of its edge"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="mu *= 1 + c exp(-|(x - x_p)/l|^q)",
         moves=RESPONSE,

@@ -26,7 +26,7 @@ from math import exp, sqrt
 import numpy as np
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Limit, Rare
+from slipwise.effects._fields import ForDiagnosis, Limit, Rare
 from slipwise.params import Parameter
 
 LEAST, BRISTLES = 1e-3, 8
@@ -90,7 +90,7 @@ EFFECT = Effect(
         Parameter("rated", "N", 2770.0, 10.0, 1e5, None, "a choice, assumed: friction of a pad", "F_0", "kN"),
     ),
     memory=("last_x", "last_y", "last_time", *(f"bristle_{k}_{axis}" for k in range(BRISTLES) for axis in "xy")),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="F = F_b z/u,  dz/ds = (1 - z/u)^i",
         moves=RESPONSE,

@@ -15,7 +15,7 @@ its values assumed.
 from math import exp, log
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Rare
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 
 
@@ -33,7 +33,7 @@ EFFECT = Effect(
         Parameter("bend", "1", 0.0, -2.0, 2.0, 0.0, "assumed", "c: change of the exponent with ln P"),
         Parameter("rated", "Pa", 16.882e6, 1e6, 100e6, None, "paper: 16.9 MPa at rest", "P_0: changes nothing", "MPa"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="mu *= exp[a ln(P/P_0) + c ln^2(P/P_0)]",
         moves=RESPONSE,

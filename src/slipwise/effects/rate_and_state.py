@@ -19,7 +19,7 @@ from math import exp, log
 import numpy as np
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Rare
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 
 
@@ -65,7 +65,7 @@ EFFECT = Effect(
         Parameter("reference", "m/s", 0.1, 1e-3, 1.0, None, "a choice, assumed: mean speed of the rig", "V_0", "mm/s"),
     ),
     memory=("log_age",),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="mu += a ln[(V + V_c)/V_0] + b ln(V_0 theta/D_c)",
         moves=RESPONSE,

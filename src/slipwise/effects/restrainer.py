@@ -14,7 +14,7 @@ assumed.
 from math import sqrt
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Limit, Rare
+from slipwise.effects._fields import ForDiagnosis, Limit, Rare
 from slipwise.params import Parameter
 
 
@@ -34,7 +34,7 @@ EFFECT = Effect(
         Parameter("stiffness", "N/m", 10e6, 0.0, 100e6, 0.0, "assumed: 10 kN/mm a pad", "k: of the rim", "kN/mm"),
         Parameter("limit", "m", 0.02, 0.001, 1.0, None, "assumed: 20 mm", "r_limit: slip at the rim", "mm"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="F += k (r - r_limit)",
         moves=RESPONSE,

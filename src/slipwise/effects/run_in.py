@@ -18,7 +18,7 @@ from math import exp, log1p
 import numpy as np
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -43,7 +43,7 @@ EFFECT = Effect(
         Parameter("tail", "1", 0.0, 0.0, 2.0, None, "assumed: exponential", "p: 0 exponential, 1 hyperbolic"),
     ),
     memory=("slid",),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="mu *= 1 + r exp(-s/s_c)",
         moves=RESPONSE,

@@ -13,7 +13,7 @@ size of mu; s/cm because energies are in kN cm and because n in the literature i
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Rare
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.effects._saturation import risen
 from slipwise.params import Parameter
 
@@ -45,7 +45,7 @@ EFFECT = Effect(
             "alpha: friction coefficient at zero speed",
         ),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="s = s' [1 - exp(-n V)] + alpha P_r",
         moves=RESPONSE,

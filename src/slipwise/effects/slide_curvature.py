@@ -13,7 +13,7 @@ assumed.
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Rare
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 
 
@@ -28,7 +28,7 @@ EFFECT = Effect(
     parameters=(
         Parameter("curvature", "1/m", 0.05, -2.0, 2.0, 0.0, "R > 10 m for a flat plate, assumed", "1/R"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="1/R = 1/R_rated + curvature",
         moves=RESPONSE,

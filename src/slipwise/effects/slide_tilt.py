@@ -15,7 +15,7 @@ import numpy as np
 
 from slipwise.effects._disturbances import Number, paired
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Rare
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 from slipwise.record import Record
 from slipwise.rig import Specimen
@@ -43,7 +43,7 @@ EFFECT = Effect(
     parameters=(
         Parameter("tilt", "rad", 1.0 / 300.0, -0.02, 0.02, 0.0, "1/300, assumed", "beta: rise towards +x", "mrad"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="F_x += N beta",
         moves=RESPONSE,

@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 from slipwise.rig import Specimen, fixed_base_frequencies
 
@@ -45,7 +45,7 @@ EFFECT = Effect(
         Parameter("stiffness", "1", 0.8, 0.2, 4.0, 1.0, "assumed", "s: of all storeys over rated"),
         Parameter("damping", "1", 0.01, -0.2, 0.3, 0.0, "assumed", "z: of the lowest mode, over rated", "%"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="girder",
         equation="k_i *= s,  c_i += 2 z k_i / w_1",
         moves=(*RESPONSE, "storey_*"),

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -32,7 +32,7 @@ EFFECT = Effect(
         Parameter("up", "1", 0.05, -0.5, 0.5, 0.0, "1 to 10 %, assumed", "c: vertical share", "%"),
         Parameter("across", "1", 0.0, -0.5, 0.5, 0.0, "1 to 10 %, assumed", "d: share across", "%"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="table",
         equation="a_z += c a_x,  a_y += d a_x",
         moves=("table_*", *RESPONSE),

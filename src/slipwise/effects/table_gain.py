@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -28,7 +28,7 @@ EFFECT = Effect(
     parameters=(
         Parameter("gain", "1", -0.05, -0.5, 0.5, 0.0, "-10 to +5 %, assumed", "e: of the table over the motion", "%"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="table",
         equation="a = (1 + e) a_given",
         moves=("table_*", *RESPONSE),

@@ -20,7 +20,7 @@ import numpy as np
 from slipwise.arrays import Array
 from slipwise.effects._disturbances import Number, channel, recorded
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -75,7 +75,7 @@ EFFECT = Effect(
         Parameter("damping", "1", 0.3, 0.05, 0.8, None, "oil column and its servo, assumed", "z of that resonance"),
         Parameter("gravity", "1", 1.0, 0.0, 1.0, None, "motion alone; 0: fixed to the girder", "g_s: in girder_ax"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="table",
         equation="theta ~ c a_x + c_g a_g:  a_x += g theta,  pitch of the loads -= I theta''/b_x",
         moves=("table_*", *RESPONSE),

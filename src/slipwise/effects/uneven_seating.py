@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from slipwise.channels import part_of
 from slipwise.effects._disturbances import Number
 from slipwise.effects._effect import RESPONSE, Effect
-from slipwise.effects._fields import Diagnosis, Rare
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -61,7 +61,7 @@ EFFECT = Effect(
     parameters=(
         Parameter("warp", "m", 2e-5, -2e-4, 2e-4, 0.0, "assumed: 0.02 mm", "e: pads A, D, or one, over the rest", "mm"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad load",
         equation="N_i += k_v e side_x side_y",
         moves=RESPONSE,

@@ -21,7 +21,7 @@ Source: assumed.
 
 import numpy as np
 
-from slipwise.effects import Diagnosis, Effect, GaugeFault, Gauges
+from slipwise.effects import Effect, ForDiagnosis, GaugeFault, Gauges
 from slipwise.params import Parameter
 
 
@@ -43,7 +43,7 @@ EFFECT = Effect(
     contract=1,
     port="gauge",
     parameters=(Parameter("bend", "s^2/m", 5e-3, -0.05, 0.05, 0.0, "assumed", "c: bend"),),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="instrument",
         equation="y = x + c x^2",
         moves=("girder_ax",),
@@ -67,7 +67,7 @@ Valid: strokes of some centimetres.
 Source: assumed.
 """
 
-from slipwise.effects import RESPONSE, Diagnosis, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -85,7 +85,7 @@ EFFECT = Effect(
     contract=1,
     port="girder",
     parameters=(Parameter("rise", "N/m^2", 1e5, -1e8, 1e8, 0.0, "assumed", "c: rise"),),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="girder",
         equation="F_x += c u^2",
         moves=RESPONSE,

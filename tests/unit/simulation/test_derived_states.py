@@ -108,7 +108,7 @@ Source: assumed.
 
 from math import exp
 
-from slipwise.effects import RESPONSE, Diagnosis, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -124,7 +124,7 @@ EFFECT = Effect(
         Parameter("rise", "1", 0.05, -0.2, 0.2, 0.0, "assumed", "c"),
         Parameter("decay", "s", 0.03, 1e-3, 1.0, None, "assumed", "t_0"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="mu += c exp(-t_r/t_0)",
         moves=RESPONSE,

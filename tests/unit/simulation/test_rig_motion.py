@@ -24,7 +24,7 @@ Valid: a test.
 Source: assumed.
 """
 
-from slipwise.effects import RESPONSE, Diagnosis, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -42,7 +42,7 @@ EFFECT = Effect(
         Parameter("of_table_velocity", "N s/m", 0.0, -1e6, 1e6, 0.0, "assumed", "b"),
         Parameter("of_table_acceleration", "kg", 0.0, -1e6, 1e6, 0.0, "assumed", "c"),
     ),
-    diagnosis=Diagnosis(
+    diagnosis=ForDiagnosis(
         component="pad friction",
         equation="F_x += a omega + b v + c a",
         moves=RESPONSE,
