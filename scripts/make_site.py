@@ -34,13 +34,7 @@ _NOTHING = 1e-6
 
 def main() -> None:
     """Write build/docs; what is current there is left alone, and what is no longer a page is removed."""
-    pages = {
-        path.relative_to(DOCS): path.read_text(encoding="utf-8") for path in sorted(DOCS.rglob("*.md"))
-    }  # fmt: skip
-    pages[Path("effects/index.md")] = linked(pages[Path("effects/index.md")])
-    pages[Path("command_line.md")] = command_line_page()
-    pages |= {Path(f"reference/{page}.md"): f"{MADE}{reference_page(page)}" for page in PAGES}
-    pages |= {Path(f"effects/{row['name']}.md"): effect_page(row) for row in effect_rows()}
+    pages = read_pages()
     others = [path.relative_to(DOCS) for path in DOCS.rglob("*") if path.is_file() and path.suffix != ".md"]
     pictures = [Path(f"effects/pictures/{name}.png") for name in catalogue()]
     for path in [path for path in SITE.rglob("*") if path.is_file()]:
@@ -54,6 +48,16 @@ def main() -> None:
     for picture in pictures:
         _draw(SITE / picture)
     print(f"wrote {len(pages)} pages to {SITE}")
+
+
+def read_pages() -> dict[Path, str]:
+    """Return every page: its path below the site's sources, and its text."""
+    pages = {path.relative_to(DOCS): path.read_text(encoding="utf-8") for path in sorted(DOCS.rglob("*.md"))}
+    pages[Path("effects/index.md")] = linked(pages[Path("effects/index.md")])
+    pages[Path("command_line.md")] = command_line_page()
+    pages |= {Path(f"reference/{page}.md"): f"{MADE}{reference_page(page)}" for page in PAGES}
+    pages |= {Path(f"effects/{row['name']}.md"): effect_page(row) for row in effect_rows()}
+    return pages
 
 
 def linked(index: str) -> str:
