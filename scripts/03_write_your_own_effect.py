@@ -43,7 +43,7 @@ Source: assumed, for a tutorial.
 
 from math import exp
 
-from slipwise.effects import RESPONSE, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -67,18 +67,21 @@ def rest(memory, seconds):
 
 
 EFFECT = Effect(
+    contract=1,
     port="area",
-    component="pad friction",
-    equation="A_r lags behind N by t_c",
     parameters=(
         Parameter("strength", "1", 0.3, 0.0, 1.0, 0.0, "assumed", "share of the area that creeps"),
         Parameter("time_constant", "s", 0.03, 1e-3, 1.0, None, "assumed", "t_c: of creep", "ms"),
     ),
-    moves=RESPONSE,
-    signature="odd in velocity, in step with the rate of the load",
-    confused_with={"channel_delay": "a delay of N shows in the heave balance too"},
     memory=("late_load", "started"),
-    needs=("changing load",),
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="A_r lags behind N by t_c",
+        moves=RESPONSE,
+        signature="odd in velocity, in step with the rate of the load",
+        confused_with={"channel_delay": "a delay of N shows in the heave balance too"},
+        needs=("changing load",),
+    ),
 )
 '''
 

@@ -1,37 +1,28 @@
-"""Write the pages of the documentation that come from elsewhere: effects, validation, thresholds, commands, reference.
+"""Make the pages of the documentation that come from elsewhere: effects, validation, thresholds, commands.
 
-    python scripts/make_docs.py            writes the pages that are committed: effects, validation, thresholds
+    python scripts/make_docs.py            writes those that are committed: effects, validation, thresholds, navigation
     python scripts/make_docs.py --check    writes nothing; exit 1 if one of them is not current
 
-A page for every effect with its picture, the page of the command line and the API reference are made by `mkdocs build`.
+`scripts/make_site.py` writes those that only the site has.
 """
 
 import json
 import re
-import runpy
 import sys
-import textwrap
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import typer
-from matplotlib.figure import Figure
 
 from slipwise.cli import app
 from slipwise.effects import Effect, base_effects, catalogue
 from slipwise.record import write_text
-from slipwise.view.figures.canvas import save_figure
-from slipwise.view.figures.effect_picture import effect_picture
-from slipwise.view.figures.style import styled
-from slipwise.view.words.effects import effect_rows, effects_table
+from slipwise.view.words.effects import effects_table
 
 DOCS = Path(__file__).parents[1] / "docs"
 TESTS = DOCS.parent / "tests"
-_MADE = "<!-- made by scripts/make_docs.py -->\n\n"
-#: What an effect adds counts as nothing below this share of what it is added to [1].
-_NOTHING = 1e-6
+MADE = "<!-- made by scripts/make_docs.py -->\n\n"
 #: Symbols that begin a sentence stay as they are.
 _SYMBOLS = ("mu", "dmu")
 
@@ -53,22 +44,13 @@ nothing, and can go; on a few campaigns that says little."""
 def effects_index() -> str:
     """Write the page that lists the catalogue."""
     return (
-        f"{_MADE}# Effects\n\nWhat a model can lack. Each effect is one file in `src/slipwise/effects/`; at its "
+        f"{MADE}# Effects\n\nWhat a model can lack. Each effect is one file in `src/slipwise/effects/`; at its "
         "neutral value it changes nothing. `slipwise effects NAME` prints the same in a terminal, and an effect of "
         "your own competes by `--effect ./mine.py`. In the equations x is the slip, v its rate, V the speed, N the "
         "load of a pad, P its pressure, F its friction, mu = F/N, F_b the force of the buffers, y what a gauge reads; "
         "side_x and side_y are ±1 by the place of a pad, b_x and b_y half the distances of the pads, and `*=`, `+=` "
         f"mean that the effect scales or adds to what was there before it.\n\n{effects_table()}"
     )
-
-
-def linked(index: str) -> str:
-    """Let every name in the list lead to its page and every component be a heading: in the site only."""
-    index = re.sub(r"^\*\*(.+)\*\*$", r"## \1", index, flags=re.MULTILINE)
-    for name in catalogue():
-        index = index.replace(f"`{name}`", f"[`{name}`]({name}.md)")
-    # the site's Markdown shows the backslash that GitHub's needs before a bar in code
-    return re.sub(r"`[^`\n]*`", lambda found: found[0].replace("\\|", "|"), index)
 
 
 def effect_page(row: dict[str, Any]) -> str:
@@ -91,7 +73,7 @@ def effect_page(row: dict[str, Any]) -> str:
     target = f", on one {row['target']}" if row["target"] else ""
     parts = [
         f"# {name}\n\n{row['summary']}\n\n```text\n{row['equation']}\n```",
-        f"It acts on [port](../contributing.md#ports) `{row['port']}`{target}; in a verdict it belongs to "
+        f"It acts on [port](../effect_contract.md#ports) `{row['port']}`{target}; in a verdict it belongs to "
         f"*{row['component']}*.",
         f"![What {name} does at typical size, and below what it adds](pictures/{name}.png)",
         "*At typical size on Bridge 1 with the paper's law: slip of 10 mm at 1.25 Hz along x and 1 mm across, 1.5 m/s² "
@@ -115,7 +97,7 @@ def validation_page(stored: dict[str, Any]) -> str:
     Args:
         stored: content of validation.json.
     """
-    parts = [f"{_MADE}# Validation", stored["note"]]
+    parts = [f"{MADE}# Validation", stored["note"]]
     for entry in stored["measurements"]:
         recorded = f"Recorded {entry['date']} with commit {entry['commit']}."
         parts += [f"## {entry['title']}", f"*{_sentence(entry['how'])} {recorded}*"]
@@ -129,7 +111,7 @@ def validation_page(stored: dict[str, Any]) -> str:
 def command_line_page() -> str:
     """Write the page of all commands with their options, from the commands themselves."""
     parts = [
-        f"{_MADE}# Command line",
+        f"{MADE}# Command line",
         "Every command has `--help`.",
         "## Exit codes",
         _table(
@@ -180,7 +162,7 @@ def thresholds_page() -> str:
     counted.append(["all", *_counts(rows.values(), list(BASES))])
     benches = sorted({row["bench"] for row in rows.values() if row["bench"]})
     parts = [
-        f"{_MADE}# Thresholds",
+        f"{MADE}# Thresholds",
         _ABOUT_THRESHOLDS,
         f"Bench of the counts: {'; '.join(benches) or 'none yet'}.",
         "## By package",
@@ -235,52 +217,15 @@ def committed_pages() -> dict[Path, str]:
         DOCS / "effects" / "index.md": effects_index(),
         DOCS / "validation.md": validation_page(stored),
         DOCS / "thresholds.md": thresholds_page(),
+        DOCS.parent / "mkdocs.yml": _navigation(),
     }
 
 
-def write_site_pages() -> list[str]:
-    """Write the pages that only the site has, and their pictures.
-
-    Returns:
-        The pages of the effects as the site's navigation names them, in the order of the catalogue's list.
-    """
-    _write(DOCS / "command_line.md", command_line_page())
-    reference = runpy.run_path(str(Path(__file__).with_name("reference.py")))
-    for page in reference["PAGES"]:
-        _write(DOCS / "reference" / f"{page}.md", f"{_MADE}{reference['reference_page'](page)}")
-    pages = []
-    for row in effect_rows():
-        name = row["name"]
-        _write(DOCS / "effects" / f"{name}.md", effect_page(row))
-        picture = DOCS / "effects" / "pictures" / f"{name}.png"
-        newest = max(path.stat().st_mtime for path in (catalogue()[name].path, Path(__file__)))
-        if not picture.is_file() or picture.stat().st_mtime < newest:
-            with styled():
-                save_figure(_readable(effect_picture(catalogue()[name])), picture)
-        pages.append(f"effects/{name}.md")
-    return pages
-
-
-def _readable(figure: Figure) -> Figure:
-    """Keep the legend off the curves, and let an axis of what is constant, or nothing, be read."""
-    above, below = figure.axes
-    handles, labels = above.get_legend_handles_labels()
-    legend = above.get_legend()
-    if legend is not None:
-        legend.remove()
-    figure.legend(handles, labels, loc="outside lower center", ncols=2)
-    added = np.asarray(below.lines[0].get_ydata(), dtype=float)
-    largest, size = float(np.abs(added).max()), float(np.abs(np.asarray(above.lines[0].get_ydata(), dtype=float)).max())
-    if largest < _NOTHING * size:
-        below.lines[0].set_ydata(np.zeros_like(added))
-        below.set_ylim(-0.01 * size, 0.01 * size)
-    elif np.ptp(added) < _NOTHING * largest:
-        below.set_ylim(min(0.0, 2.0 * added[0]), max(0.0, 2.0 * added[0]))
-    below.ticklabel_format(axis="y", useOffset=False)
-    above.set_title("")  # the equation stands above the picture already
-    for axes, width in ((above, 26), (below, 20)):
-        axes.set_ylabel(textwrap.fill(axes.get_ylabel(), width))
-    return figure
+def _navigation() -> str:
+    """Return the site's configuration with a page for every effect."""
+    before = (DOCS.parent / "mkdocs.yml").read_text(encoding="utf-8").partition("  - Effects:\n")[0]
+    pages = ["index", *catalogue()]
+    return before + "  - Effects:\n" + "".join(f"      - effects/{name}.md\n" for name in pages)
 
 
 def _added(effect: Effect) -> str:

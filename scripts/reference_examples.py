@@ -189,6 +189,8 @@ effects.scaled_to_gauge(effects.find_effect("channel_offset"), "slip_x", lambda 
 effects.holding(heating, heating.typical())
 # %% effects.GaugeFault, effects.Gauges
 effects.find_effect("channel_gain").fault, effects.find_effect("channel_gain").gauges
+# %% effects.ForDiagnosis, effects.Rare
+heating.diagnosis.signature, heating.rare.exact
 # %% effects.Limit
 effects.Limit("length", "high", "slide_curvature")
 # %% effects.BalanceStates

@@ -25,7 +25,7 @@ Source: assumed, for a tutorial.
 
 from math import exp
 
-from slipwise.effects import RESPONSE, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -40,17 +40,20 @@ def advance(speed, dt, memory):
 
 
 EFFECT = Effect(
+    contract=1,
     port="shear",
-    component="pad friction",
-    equation="mu *= 1 + r exp(-s/s_0)",
     parameters=(
         Parameter("extra", "1", 0.2, -0.5, 2.0, 0.0, "assumed", "r: of a clean pad over one with its film"),
         Parameter("distance", "m", 0.5, 0.01, 10.0, None, "assumed", "s_0: in which the film is laid down"),
     ),
-    moves=RESPONSE,
-    signature="odd; fades with the path slid; a repeated run shows none of it",
-    confused_with={},
     memory=("slid",),
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="mu *= 1 + r exp(-s/s_0)",
+        moves=RESPONSE,
+        signature="odd; fades with the path slid; a repeated run shows none of it",
+        confused_with={},
+    ),
 )
 ''')
 effect = sw.effects.find_effect(str(own))

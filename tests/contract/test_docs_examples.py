@@ -22,10 +22,9 @@ from slipwise.selection.importance import RESPONSES
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "src" / "slipwise"
-MADE_BY_THE_SITE = ("command_line.md",)
-PAGES = [ROOT / "README.md", *sorted(p for p in (ROOT / "docs").glob("*.md") if p.name not in MADE_BY_THE_SITE)]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 FORMATS = (ROOT / "docs" / "formats.md").read_text(encoding="utf-8")
-CONTRIBUTING = (ROOT / "docs" / "contributing.md").read_text(encoding="utf-8")
+CONTRACT = (ROOT / "docs" / "effect_contract.md").read_text(encoding="utf-8")
 #: Section of formats.md -> files and functions that write it.
 WRITTEN_BY = {
     "summary.json": {"simulation/result.py": ("summary",)},
@@ -107,7 +106,7 @@ def test_python_examples_compile_and_use_names_that_exist(text):
 
 
 def test_the_example_of_an_effect_is_one(tmp_path):
-    (text,) = (t for t in blocks(ROOT / "docs" / "contributing.md", "python") if "EFFECT" in t)
+    (text,) = (t for t in blocks(ROOT / "docs" / "first_effect.md", "python") if "EFFECT" in t)
     (tmp_path / "mine.py").write_text(text, encoding="utf-8")
     effect = load_effect(tmp_path / "mine.py")
     assert effect.hooks["shear"](shear=1.0, true_pressure=2.0, speed=3.0, **effect.neutral()) == 1.0
@@ -143,7 +142,7 @@ def test_the_campaign_of_the_formats_page_can_be_read(tmp_path):
 
 def test_the_model_of_the_formats_page_can_be_read(tmp_path):
     text = next(t for t in blocks(ROOT / "docs" / "formats.md", "toml") if "[[effect]]" in t)
-    mine = next(t for t in blocks(ROOT / "docs" / "contributing.md", "python") if "EFFECT" in t)
+    mine = next(t for t in blocks(ROOT / "docs" / "first_effect.md", "python") if "EFFECT" in t)
     (tmp_path / "model.toml").write_text(text, encoding="utf-8")
     (tmp_path / "mine.py").write_text(mine, encoding="utf-8")
     names = [u.effect.name for u in load_model(tmp_path / "model.toml", trust=[tmp_path / "mine.py"]).uses]
@@ -183,30 +182,30 @@ def test_every_response_of_an_importance_is_explained():
     assert all(f"`{name}`" in words for name in RESPONSES)
 
 
-@pytest.mark.parametrize("name", ["architecture.md", "contributing.md", "theory.md"])
+@pytest.mark.parametrize("name", ["architecture.md", "contributing.md", "effect_contract.md", "theory.md"])
 def test_files_named_in_the_text_exist(name):
     for path in re.findall(r"`([\w./]+/[\w./]*\w\.py)`", (ROOT / "docs" / name).read_text(encoding="utf-8")):
         assert (ROOT / path).is_file() or (PACKAGE / path).is_file(), path
 
 
 def test_every_port_is_explained_with_an_effect_on_it():
-    rows = re.findall(r"^\| `(\w+)` \|.*\| `(\w+)` \|$", CONTRIBUTING, re.MULTILINE)
+    rows = re.findall(r"^\| `(\w+)` \|.*\| `(\w+)` \|$", CONTRACT, re.MULTILINE)
     assert [port for port, _ in rows] == list(PORTS)
     for port, example in rows:
         assert sw.effects.catalogue()[example].port == port
 
 
 def test_every_derived_state_is_explained_with_its_unit():
-    rows = re.findall(r"^\| `(\w+)` \| (.*) \| ([^|]*) \| (yes)? *\|$", CONTRIBUTING, re.MULTILINE)
+    rows = re.findall(r"^\| `(\w+)` \| (.*) \| ([^|]*) \| (yes)? *\|$", CONTRACT, re.MULTILINE)
     assert {name: f"{words} [{unit}]".replace("\\|", "|") for name, words, unit, _ in rows} == DERIVED
     assert {name for name, *_, buffers in rows if buffers} == DERIVED.keys() & HOOKS["spring"].inputs.keys()
-    assert all(f"`{name}`" in CONTRIBUTING.partition("What lags")[2].partition(" does so")[0] for name in LAGGING)
+    assert all(f"`{name}`" in CONTRACT.partition("What lags")[2].partition(" does so")[0] for name in LAGGING)
 
 
 def test_every_motion_of_the_rig_is_explained_with_its_unit():
-    assert all(f"`{name}`" in CONTRIBUTING for name in RIG_MOTION)
+    assert all(f"`{name}`" in CONTRACT for name in RIG_MOTION)
     for name, words in RIG_MOTION.items():
-        assert f"[{words.rpartition('[')[2]}" in CONTRIBUTING.partition(f"`{name}`")[2].partition(".")[0]
+        assert f"[{words.rpartition('[')[2]}" in CONTRACT.partition(f"`{name}`")[2].partition(".")[0]
 
 
 def test_the_drawing_shows_every_package_after_those_that_it_may_import():

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from slipwise.effects import BLOCKS, CONTRACT, Effect, load_effect, skeleton, write_effect
-from slipwise.errors import SettingError
+from slipwise.effects import CONTRACT, Effect, ForDiagnosis, Gauges, Rare, load_effect, skeleton, write_effect
+from slipwise.errors import SettingError, SlipwiseWarning
 from slipwise.testing import ContractError, check_effect
 
 VISCOUS = '''
@@ -23,7 +23,7 @@ Valid: V below 1 m/s.
 Source: assumed, an example.
 """
 
-from slipwise.effects import RESPONSE, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -35,12 +35,14 @@ def shear(shear, true_pressure, speed, rise):
 EFFECT = Effect(
     contract=1,
     port="shear",
-    component="pad friction",
-    equation="mu += c V",
     parameters=(Parameter("rise", "s/m", 0.05, 0.0, 0.5, 0.0, "assumed", "c: rise with speed"),),
-    moves=RESPONSE,
-    signature="odd in velocity, largest at the highest speed",
-    confused_with={"shear_rate": "constant high speeds: shear_rate has levelled off"},
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="mu += c V",
+        moves=RESPONSE,
+        signature="odd in velocity, largest at the highest speed",
+        confused_with={"shear_rate": "constant high speeds: shear_rate has levelled off"},
+    ),
 )
 '''
 PROJECT = """
@@ -96,10 +98,38 @@ def test_an_effect_that_breaks_the_contract_is_told_of_every_breach(tmp_path: Pa
         assert [line for line in lines if words in line and line.startswith("viscous.py: ")], words
 
 
-def test_every_field_of_an_effect_lies_in_one_block_and_a_newcomer_reads_twelve() -> None:
-    assert sorted(name for names in BLOCKS.values() for name in names) == sorted(f.name for f in fields(Effect))
-    first, second = list(BLOCKS.values())[:2]
-    assert len(first) + len(second) <= 12
+def test_a_newcomer_reads_twelve_fields() -> None:
+    """Those of every effect, up to the other blocks, and those of a diagnosis."""
+    own = [f.name for f in fields(Effect)]
+    assert len(own[: own.index("gauges")]) + len(fields(ForDiagnosis)) <= 12
+
+
+def test_every_field_of_a_block_is_read_from_the_effect(tmp_path: Path) -> None:
+    effect = load_effect(written(tmp_path))
+    for block in (effect.diagnosis, effect.gauges, effect.rare):
+        # of `gauges` some are asked for as `effect.gauges.sits`
+        read = [f.name for f in fields(block) if hasattr(effect, f.name) or block is not effect.gauges]
+        assert [getattr(effect, name) for name in read] == [getattr(block, name) for name in read]
+
+
+FLAT = (
+    VISCOUS.replace("    diagnosis=ForDiagnosis(\n", "")
+    .replace("    ),\n)\n", '    gauges=Gauges(sits="alone"),\n    lag="rise",\n    steady="the load",\n)\n')
+    .replace("Effect, ForDiagnosis", "Effect, Gauges")
+    .replace("        ", "    ")
+)
+
+
+def test_a_file_that_knows_no_blocks_works_and_is_told_once_what_to_write(tmp_path: Path) -> None:
+    path = written(tmp_path, FLAT)
+    with pytest.warns(SlipwiseWarning) as told:
+        effect, again = load_effect(path), load_effect(path)
+    assert effect.diagnosis == load_effect(written(tmp_path)).diagnosis == again.diagnosis
+    assert (effect.gauges, effect.rare) == (Gauges(sits="alone", lag="rise"), Rare(steady="the load"))
+    (words,) = (str(each.message) for each in told)
+    assert "viscous.py works as it is" in words and "gauges=Gauges(lag=...)" in words
+    assert "diagnosis=ForDiagnosis(component=..., equation=..., moves=..., signature=..., confused_with=...)" in words
+    assert effect.advice == (words,)
 
 
 def test_a_package_that_is_installed_from_its_folder_offers_its_effect(tmp_path: Path) -> None:

@@ -57,18 +57,36 @@ def test_no_other_file_writes_a_schema_number() -> None:
     assert writing - ELSEWHERE <= set(WRITERS.values())
 
 
-def test_the_citation_has_the_version_of_the_package() -> None:
+def test_citation_and_changelog_have_the_version_of_the_package() -> None:
     version = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
-    assert re.search(
-        rf"^version: \"?{re.escape(version)}\"?$", (ROOT / "CITATION.cff").read_text(encoding="utf-8"), re.M
-    )
+    cited = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert re.search(rf"^version: \"?{re.escape(version)}\"?$", cited, re.M)
+    changes = (ROOT / "docs" / "changelog.md").read_text(encoding="utf-8")
+    assert re.findall(r"^## (.+)$", changes, re.M)[0] == version
+    kinds = re.findall(r"^### (.+)$", changes.partition(f"## {version}")[2].partition("\n## ")[0], re.M)
+    assert kinds == ["Added", "Changed", "Fixed", "Removed"]
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """The sdist and the wheel."""
+    pytest.importorskip("hatchling", reason="builds the package; `pip install hatchling`")
+    folder = tmp_path_factory.mktemp("dist")
+    subprocess.run([sys.executable, "-m", "hatchling", "build", "-d", str(folder)], cwd=ROOT, check=True)
+    (sdist,), (wheel,) = folder.glob("*.tar.gz"), folder.glob("*.whl")
+    return sdist, wheel
 
 
 @pytest.mark.slow
-def test_sdist_and_wheel_hold_what_they_should_and_nothing_else(tmp_path: Path) -> None:
-    pytest.importorskip("hatchling", reason="builds the package; `pip install hatchling`")
-    subprocess.run([sys.executable, "-m", "hatchling", "build", "-d", str(tmp_path)], cwd=ROOT, check=True)
-    (sdist,), (wheel,) = tmp_path.glob("*.tar.gz"), tmp_path.glob("*.whl")
+def test_an_index_would_take_sdist_and_wheel(built: tuple[Path, Path]) -> None:
+    pytest.importorskip("twine", reason="checks them; `pip install twine`")
+    done = subprocess.run([sys.executable, "-m", "twine", "check", "--strict", *built], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.slow
+def test_sdist_and_wheel_hold_what_they_should_and_nothing_else(built: tuple[Path, Path]) -> None:
+    sdist, wheel = built
     with tarfile.open(sdist) as archive:
         inside = {name.split("/")[1] for name in archive.getnames() if "/" in name}
     assert inside == {

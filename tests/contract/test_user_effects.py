@@ -35,7 +35,7 @@ Source: assumed.
 
 from math import pi, sin
 
-from slipwise.effects import RESPONSE, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -45,16 +45,19 @@ def shear(shear, slip_x, height, length):
 
 
 EFFECT = Effect(
+    contract=1,
     port="shear",
-    component="pad friction",
-    equation="mu *= 1 + c sin(2 pi x/l)",
     parameters=(
         Parameter("height", "1", 0.2, -0.5, 0.5, 0.0, "assumed", "c"),
         Parameter("length", "m", 0.01, 1e-3, 0.1, None, "assumed", "l", "mm"),
     ),
-    moves=RESPONSE,
-    signature="odd, periodic in slip",
-    confused_with={"position_patch": "a patch is there once"},
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="mu *= 1 + c sin(2 pi x/l)",
+        moves=RESPONSE,
+        signature="odd, periodic in slip",
+        confused_with={"position_patch": "a patch is there once"},
+    ),
 )
 '''
 
@@ -217,7 +220,19 @@ def test_a_package_offers_an_effect_by_an_entry_point(tmp_path: Path, monkeypatc
         catalogue.cache_clear()
 
 
+def beside(block: str) -> str:
+    """The file with another block beside that of the diagnosis."""
+    text = MINE.replace("    diagnosis=", f"    {block},\n    diagnosis=")
+    return text.replace("Effect, ForDiagnosis", "Effect, ForDiagnosis, Gauges, Rare")
+
+
 REFUSED = {
+    "no block": (beside("gauges={}"), SettingError, r"write gauges=Gauges\(\.\.\.\) in EFFECT"),
+    "a hook that went": (
+        MINE.replace('"shear",', '"buffer",').replace("def shear(shear,", "def settle(force,"),
+        SettingError,
+        r"hook 'settle'.*let `spring` change memory",
+    ),
     "no EFFECT": (MINE.replace("EFFECT =", "OTHER ="), SettingError, "defines no EFFECT"),
     "no range": (MINE.replace("Valid:", "Range:"), SettingError, "Valid:"),
     "no source": (MINE.replace("Source: assumed", "From: assumed"), SettingError, "Source:"),
@@ -237,10 +252,10 @@ REFUSED = {
     "no channel": (MINE.replace("moves=RESPONSE", 'moves=("pad_*_Q",)'), SettingError, "no channel"),
     "same name twice": (MINE.replace('"length", "m"', '"height", "m"'), SettingError, "share a name"),
     "unknown need": (MINE.replace("moves=RESPONSE,", 'moves=RESPONSE, needs=("heaven",),'), UnknownNameError, "heave"),
-    "unknown role": (MINE.replace("moves=RESPONSE,", 'moves=RESPONSE, base="laws",'), UnknownNameError, "law"),
-    "no such lag": (MINE.replace("moves=RESPONSE,", 'moves=RESPONSE, lag="delay",'), UnknownNameError, "lag"),
+    "unknown role": (beside('rare=Rare(base="laws")'), UnknownNameError, "law"),
+    "no such lag": (beside('gauges=Gauges(lag="delay")'), UnknownNameError, "lag"),
     "plainer without lag": (
-        MINE.replace("moves=RESPONSE,", 'moves=RESPONSE, plainer="channel_delay",'),
+        beside('gauges=Gauges(plainer="channel_delay")'),
         SettingError,
         "lag",
     ),
@@ -250,7 +265,7 @@ REFUSED = {
         "did you mean position",
     ),
     "unknown equal": (
-        MINE.replace("moves=RESPONSE,", 'moves=RESPONSE, same_unless={"runin": ("yaw",)},'),
+        beside('rare=Rare(same_unless={"runin": ("yaw",)})'),
         UnknownNameError,
         "same_unless.*did you mean run_in",
     ),
@@ -273,7 +288,7 @@ REFUSED = {
     "neutral left out": (
         MINE.replace("0.5, 0.0, ", "0.5, "),
         InputError,
-        "Parameter takes name, unit, typical, low, high, neutral, source and meaning; mend line 25",
+        "Parameter takes name, unit, typical, low, high, neutral, source and meaning; mend line 24",
     ),
     "neutral left out of a longer one": (
         MINE.replace("0.1, None, ", "0.1, "),

@@ -61,16 +61,17 @@ Valid: as a reference case only.
 Source: the first line of the reference file.
 """
 from math import exp, tanh
-from slipwise.effects import Effect
+from slipwise.effects import Effect, ForDiagnosis, Rare
 from slipwise.params import Parameter
 
 def shear(load, real_area, pressure, speed, slow):
     fast = 0.12 - 0.05 * tanh(0.05e-6 * pressure)
     return (fast - (fast - slow) * exp(-20.0 * speed)) * load / real_area
 
-EFFECT = Effect(port="shear", component="pad friction", equation="mu(P, v)",
+EFFECT = Effect(port="shear", contract=1,
     parameters=(Parameter("slow", "1", 0.05, 0.0, 1.0, None, "the reference file", "friction at zero speed"),),
-    moves=("*",), signature="another program's", confused_with={}, replaces="constant shear strength")
+    diagnosis=ForDiagnosis("pad friction", "mu(P, v)", moves=("*",), signature="another program's", confused_with={}),
+    rare=Rare(replaces="constant shear strength"))
 '''
 
 

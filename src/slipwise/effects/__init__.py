@@ -2,9 +2,9 @@
 
 from slipwise.effects._by_pad import for_pads
 from slipwise.effects._catalogue import base_effects, catalogue, find_effect, load_effect
-from slipwise.effects._effect import BLOCKS, CONTRACT, RESPONSE, Effect, moved_channels
+from slipwise.effects._effect import CONTRACT, RESPONSE, Effect, moved_channels
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import NEEDS, Gauges, Limit
+from slipwise.effects._fields import NEEDS, ForDiagnosis, Gauges, Limit, Rare
 from slipwise.effects._hooks import (
     COMPONENTS,
     DERIVED,
@@ -26,7 +26,6 @@ from slipwise.effects._written_hook import WrittenHook
 
 __all__ = [
     "BalanceStates",
-    "BLOCKS",
     "COMPONENTS",
     "CONTRACT",
     "DERIVED",
@@ -39,10 +38,12 @@ __all__ = [
     "PORTS",
     "RIG_MOTION",
     "RESPONSE",
+    "ForDiagnosis",
     "Effect",
     "GaugeFault",
     "Gauges",
     "Limit",
+    "Rare",
     "Trust",
     "WrittenEffect",
     "WrittenHook",

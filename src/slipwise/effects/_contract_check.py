@@ -18,7 +18,7 @@ _ONE, _TWO = "one number: `return ...`", "two numbers: `return force_x, force_y`
 _NOTHING = "nothing: it changes memory[...]"
 _ANSWERS: dict[str, str] = {
     **dict.fromkeys(("stick", "pad", "drag"), _TWO),
-    **dict.fromkeys(("advance", "settle"), _NOTHING),
+    "advance": _NOTHING,
 }
 #: Hooks of whole arrays -> kind of their answer.
 _KINDS: dict[str, type] = {

@@ -21,12 +21,12 @@ Hooks of whole arrays (numpy):
     disturb(records, specimen) -> forms, each a list of free numbers: what each adds to the balances by which an audit
                         compares gauges, in every record; see `_disturbances`
 
-Rare hooks, each of one to three effects of the catalogue or none; a new effect seldom needs one. Of one instant:
+Rare hooks, each of one or two effects of the catalogue; a new effect seldom needs one. Of one instant:
 
     area(real_area, ...) -> real_area          stick(bound, ...) -> (force_x, force_y)
     face(face) -> curvature of the sliding face [1/m], on which the girder rises and swings as a pendulum
-    deflection(deflection, ...) -> deflection  settle(...) -> None (as `advance`, for a buffer's memory)
-    stretch(force, ...) -> stretch of the loading train between gauge and contact, of one slider
+    deflection(deflection, ...) -> deflection  stretch(force, ...) -> stretch of the loading train between gauge and
+                                               contact, of one slider
     lift(force_x, force_y, ...) -> force_z (of all shear keys, which share it as they share the horizontal force)
 
 Of whole arrays:
@@ -37,10 +37,9 @@ Of whole arrays:
     flat(coefficient, ...) -> {parameter: value}   at which a law over speed is a constant coefficient of friction
     corner(...) -> frequency [Hz]                  of a gauge's filter: it takes what is above
 
-`EFFECT` also declares what hooks cannot say: what a campaign needs to test it, what it turns or shifts in time, which
-gauges it sits on, what it is one thing with, at which bound it is another effect. No other file knows an effect by its
-name, so that a user's own file has every right that a file of the catalogue has, but for a role in the base model and
-faults that are found in samples.
+`EFFECT` declares in blocks what hooks cannot say: `ForDiagnosis`, `Gauges` for a fault of a gauge, and rarely `Rare`.
+No other file knows an effect by its name, so that a user's own file has every right that a file of the catalogue has,
+but for a role in the base model and faults that are found in samples.
 """
 
 import fnmatch
@@ -52,8 +51,8 @@ from typing import Any
 
 from slipwise.channels import CHANNELS
 from slipwise.display import Drawn, Tabular
-from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import COMPONENT_NEEDS, NEEDS, Gauges, Limit
+from slipwise.effects._fields import COMPONENT_NEEDS, NEEDS, ForDiagnosis, Gauges, Rare
+from slipwise.effects._flat_fields import BlockFields, takes_flat_fields, what_to_write
 from slipwise.effects._hooks import DERIVED, HOOKS, PAD_HOOKS
 from slipwise.errors import unknown_name
 from slipwise.params import Parameter
@@ -65,132 +64,46 @@ RESPONSE: tuple[str, ...] = (
 
 #: The contract of this version. What an effect file of contract 1 says stays possible as long as this is 1.
 CONTRACT = 1
-#: What a field of `Effect` is for -> its names.
-BLOCKS: dict[str, tuple[str, ...]] = {
-    "what it does": (
-        "port",
-        "parameters",
-        "memory",
-        "contract",
-    ),
-    "what a diagnosis needs": (
-        "component",
-        "equation",
-        "moves",
-        "signature",
-        "confused_with",
-        "needs",
-        "steady",
-        "limits",
-    ),
-    "what a fault of a gauge needs": (
-        "target",
-        "fault",
-        "gauges",
-        "shifts",
-        "lag",
-        "plainer",
-        "in_samples",
-        "single",
-    ),
-    "what few effects need": (
-        "exact",
-        "replaces",
-        "adds",
-        "same_unless",
-        "turns",
-        "base",
-        "stands_for",
-    ),
-    "set when the file is read": (
-        "name",
-        "summary",
-        "text",
-        "hooks",
-        "path",
-        "original",
-    ),
-}
 
 
+@takes_flat_fields
 @dataclass(frozen=True, repr=False)
-class Effect(Drawn, Tabular):
-    """What a person and the fit need to know of an effect, in blocks: `BLOCKS`.
+class Effect(BlockFields, Drawn, Tabular):
+    """What a person and the fit need to know of an effect, in blocks.
 
-    A law gives the first two, which are twelve fields; a fault of a gauge the third as well.
+    A law gives port, parameters and `diagnosis`, perhaps `memory`; a fault of a gauge `gauges` as well; few need
+    `rare`. The fields of the blocks are read from the effect itself: `effect.moves` is `effect.diagnosis.moves`.
 
     Attributes:
         port: where it acts, one of `PORTS`.
         parameters: with unit, bounds, typical and neutral value, source.
+        diagnosis: what a diagnosis needs to know of it.
         memory: names of the numbers it remembers, per pad or per buffer and direction; they start at zero.
         contract: the contract that the file was written for, `CONTRACT` of that day; 0 where it does not say.
-        component: what it belongs to in a verdict, one of `COMPONENTS`.
-        equation: in plain text, one line.
-        moves: channels that it may change, e.g. "pad_*_Fx"; `*` stands for any pad or buffer.
-        signature: how it shows, in words.
-        confused_with: other effects -> the test that tells them apart.
-        needs: what a campaign must have to test it, of `NEEDS`; what its component needs is known.
-        steady: for an effect that needs a changing load: what it is one with where the load never changes, in words.
-        limits: ends of its parameters' bounds at which it is another effect, or nothing beside the base model.
-        target: "channel" where the effect must be told which channel it acts on, else "".
-        fault: of a gauge's fault: what the audit of the instruments needs to know of it.
-        gauges: on which channels a gauge's fault is looked for.
-        shifts: whether it moves a channel in time as a whole, and its noise with it.
-        lag: for what lets slow signals come late: the parameter that says by how much [s].
-        plainer: for a filter: the effect that it is where its corner lies above all that was recorded.
-        in_samples: for a fault that is found by looking at the samples, and not by a fit: why it cannot be found so
-            where an actuator prescribes the slip.
-        single: whether it may sit on one pad alone, whose load channel is then its target.
-        exact: whether geometry leaves no other form of it than this: what it does not explain is then something else.
-        replaces: for a law that takes the place of a simpler one: which; such an effect has no neutral value.
-        adds: for a law that brings a share of its own: what scales friction as a whole, heat or wear or a patch of the
-            plate, scales that share too, whichever was listed first.
-        same_unless: other effects that are one thing with it -> what tells them apart where it was measured: "yaw", or
-            a balance of the girder ("pitch").
-        turns: whether it turns the girder about the vertical, so that yaw belongs to its fit; known of effects with a
-            hook that asks for `side` or `side_y`.
-        base: its role in the base model, of `BASE_ROLES`; springs are never missing by themselves.
-        stands_for: numbers of the specimen or the base fit in whose place it comes, e.g. "rig.shear_strength".
-        name: the file's name; set when the file is read.
-        summary: first line of the file's docstring; set when the file is read.
-        text: the whole docstring; set when the file is read.
-        hooks: the file's functions; set when the file is read.
-        path: the file; set when the file is read.
+        gauges: what a fault of a gauge says.
+        rare: what few effects say.
+        name: the file's name; set when the file is read, as all below.
+        summary: first line of the file's docstring.
+        text: the whole docstring.
+        hooks: the file's functions.
+        path: the file.
+        flat: names of what the file gives beside its blocks, as files before 0.2 do.
         original: for an effect with the parameters that a rig's pads can have, see `for_pads`: the one with all.
     """
 
     port: str
-    component: str
-    equation: str
     parameters: tuple[Parameter, ...]
-    moves: tuple[str, ...]
-    signature: str
-    confused_with: Mapping[str, str]
+    diagnosis: ForDiagnosis
     memory: tuple[str, ...] = ()
     contract: int = 0
-    target: str = ""
-    single: bool = False
-    fault: GaugeFault | None = None
-    exact: bool = False
-    replaces: str = ""
-    adds: bool = False
-    needs: tuple[str, ...] = ()
-    steady: str = "what does not follow the load"
-    limits: tuple[Limit, ...] = ()
-    same_unless: Mapping[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
-    turns: bool = False
-    shifts: bool = False
-    lag: str = ""
-    plainer: str = ""
     gauges: Gauges = field(default_factory=Gauges)
-    in_samples: str = ""
-    base: str = ""
-    stands_for: tuple[str, ...] = ()
+    rare: Rare = field(default_factory=Rare)
     name: str = ""
     summary: str = ""
     text: str = ""
     hooks: Mapping[str, Callable[..., Any]] = field(default_factory=dict[str, Callable[..., Any]])
     path: Path = Path()
+    flat: tuple[str, ...] = ()
     original: "Effect | None" = None
 
     @property
@@ -269,6 +182,17 @@ class Effect(Drawn, Tabular):
     def typical(self) -> dict[str, float]:
         """A first guess for the reference rig."""
         return {p.name: p.typical for p in self.parameters}
+
+    @property
+    def advice(self) -> tuple[str, ...]:
+        """What to change in its file although it works as it is, a sentence each."""
+        advice = [what_to_write(self.path.name, self.flat)] if self.flat else []
+        if self.contract != CONTRACT:
+            advice.append(
+                f"{self.path.name} does not say for which contract it was written: add contract={CONTRACT} to EFFECT, "
+                "so that a later Slipwise reads it as it is meant"
+            )
+        return tuple(advice)
 
     def _headline(self) -> str:
         return f"{self.name}: {self.summary}"

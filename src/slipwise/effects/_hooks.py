@@ -99,7 +99,6 @@ SIDES: frozenset[str] = frozenset({"side", "side_y"})
 #: Real area and true pressure are only known while the bound is being made.
 _AFTERWARDS = {n: words for n, words in PAD_INPUTS.items() if n not in ("real_area", "true_pressure")}
 _BOUND = {"bound": _FORCE_INPUTS["bound"]}
-_OF_BUFFER = {"force": "of the buffer so far [N]"}
 _RECORD = {"record": "the run so far, a Record", "target": "channel that it sits on, where EFFECT has a target"}
 _PAD_ALONE = {"target": "load channel of the pad on which it sits alone, where EFFECT is `single`; else empty"}
 _MEMORY = {"memory": "numbers that it remembers"}
@@ -112,8 +111,7 @@ HOOKS: dict[str, Hook] = {
     "face": _hook({}, {"face": "curvature of the pad's sliding face so far, 1/R [1/m]"}, "pad"),
     "advance": _hook({**_AFTERWARDS, **_FORCE_INPUTS}, {}, "pad"),
     "deflection": _hook(BUFFER_INPUTS, {"deflection": BUFFER_INPUTS["deflection"]}, "buffer"),
-    "spring": _hook(BUFFER_INPUTS, _OF_BUFFER, "buffer"),
-    "settle": _hook({**BUFFER_INPUTS, **_OF_BUFFER}, {}, "buffer"),
+    "spring": _hook(BUFFER_INPUTS, {"force": "of the buffer so far [N]"}, "buffer"),
     "stretch": _hook({"load": PAD_INPUTS["load"]}, {"force": "that the loading train carries [N]"}),
     "lift": _hook(
         GIRDER_INPUTS,
@@ -158,7 +156,7 @@ PORTS: dict[str, tuple[str, ...]] = {
     "stick": ("stick", "shear", "advance", "rest", "begin"),
     "pad": ("pad", "face", "advance", "rest", "disturb"),
     "train": ("stretch",),
-    "buffer": ("deflection", "spring", "settle", "lift", "balance", "rest", "disturb"),
+    "buffer": ("deflection", "spring", "lift", "balance", "rest", "disturb"),
     "girder": ("rig", "drag", "lift", "balance", "disturb"),
     "gauge": ("gauge", "undo", "sharpen", "corner"),
 }

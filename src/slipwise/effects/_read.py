@@ -3,6 +3,7 @@
 import fnmatch
 import functools
 import inspect
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from difflib import get_close_matches
@@ -14,11 +15,15 @@ from slipwise.channels import CHANNELS
 from slipwise.effects._contract_check import check_answer, try_instant
 from slipwise.effects._effect import CONTRACT, Effect
 from slipwise.effects._fault import SAMPLE_FAULTS
-from slipwise.effects._fields import BASE_ROLES, ENDS, NEEDS, SITS, Limit
+from slipwise.effects._fields import BASE_ROLES, ENDS, NEEDS, SITS, ForDiagnosis, Gauges, Limit, Rare
+from slipwise.effects._flat_fields import what_to_write
 from slipwise.effects._hooks import COMPONENTS, HOOKS, LAGGING, PORTS, SIDES
-from slipwise.errors import SettingError, unknown_name
+from slipwise.errors import SettingError, SlipwiseWarning, unknown_name
 from slipwise.params import Parameter
 
+_HELPER = "a function that helps a hook has a name that begins with _"
+#: Hooks of 0.1 -> what to write for them.
+_GONE = {"settle": "let `spring` change memory[...], as it may ask for all that settle() could"}
 #: Lines that a docstring must have -> an example.
 _LINES = {"Valid:": "Valid: speeds of 1 to 500 mm/s.", "Source:": "Source: assumed."}
 
@@ -71,8 +76,16 @@ def read_effect(module: ModuleType, path: Path) -> Effect:
             raise SettingError(
                 f"{path.name}: 'moves' names {pattern!r}, which is no channel; `slipwise channels` lists them"
             )
-    turns = found.turns or bool(SIDES & asked)
-    return replace(found, name=name, summary=text.splitlines()[0], text=text, hooks=hooks, path=path, turns=turns)
+    if found.flat:
+        _tell_once(what_to_write(path.name, found.flat))
+    rare = replace(found.rare, turns=found.turns or bool(SIDES & asked))
+    return replace(found, name=name, summary=text.splitlines()[0], text=text, hooks=hooks, path=path, rare=rare)
+
+
+@functools.cache
+def _tell_once(words: str) -> None:
+    """Say something about a file, once in a process."""
+    warnings.warn(words, SlipwiseWarning, stacklevel=4)
 
 
 def _check_declared(path: Path, effect: Effect) -> None:
@@ -81,6 +94,9 @@ def _check_declared(path: Path, effect: Effect) -> None:
     Raises:
         SettingError: with what is possible.
     """
+    for name, block in (("diagnosis", ForDiagnosis), ("gauges", Gauges), ("rare", Rare)):
+        if not isinstance(getattr(effect, name), block):
+            raise SettingError(f"{path.name}: write {name}={block.__name__}(...) in EFFECT, from slipwise.effects")
     for name, kind in (("parameters", Parameter), ("moves", str), ("memory", str), ("needs", str), ("limits", Limit)):
         given: object = getattr(effect, name)
         if not isinstance(given, tuple) or not all(isinstance(each, kind) for each in cast(tuple[object, ...], given)):
@@ -114,7 +130,7 @@ def _check_hooks(path: Path, effect: Effect, hooks: Mapping[str, Callable[..., A
         if hook not in allowed:
             raise SettingError(
                 f"{path.name}: an effect on port {effect.port!r} cannot have a hook {hook!r}; "
-                f"possible: {', '.join(allowed)}; a function that helps a hook has a name that begins with _"
+                f"possible: {', '.join(allowed)}; {_GONE.get(hook, _HELPER)}"
             )
         _check_arguments(path, effect, hook, function)
         if HOOKS[hook].instant:

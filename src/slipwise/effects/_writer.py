@@ -44,7 +44,8 @@ EFFECT = Effect(
 '''
 #: What every file imports, and nearly every one.
 _ALWAYS: dict[str, str] = {
-    "Effect": "slipwise.effects", "Parameter": "slipwise.params", "RESPONSE": "slipwise.effects",
+    "Effect": "slipwise.effects", "ForDiagnosis": "slipwise.effects", "Parameter": "slipwise.params",
+    "RESPONSE": "slipwise.effects", "Gauges": "slipwise.effects",
 }  # fmt: skip
 
 
@@ -192,15 +193,19 @@ def _entries(written: WrittenEffect) -> dict[str, str]:
     entries = {
         "contract": str(CONTRACT),
         "port": _quoted(written.port),
-        "component": _quoted(written.component),
-        "equation": _quoted(written.equation),
-        "parameters": _lines("(", [_parameter(p) for p in written.parameters], ")"),
-        "moves": _names(written.moves) if written.moves else "RESPONSE",
-        "signature": _quoted(written.signature),
-        "confused_with": _lines("{", [f'"{rival}": {_quoted(t)}' for rival, t in written.confused_with.items()], "}"),
+        "parameters": _lines("(", [_parameter(p) for p in written.parameters], ")", 4),
     }
     entries |= {"memory": _names(written.memory)} if written.memory else {}
-    return entries | ({"target": _quoted(written.target)} if written.target else {})
+    rivals = [f'"{rival}": {_quoted(test)}' for rival, test in written.confused_with.items()]
+    diagnosis = (
+        f"component={_quoted(written.component)}",
+        f"equation={_quoted(written.equation)}",
+        f"moves={_names(written.moves) if written.moves else 'RESPONSE'}",
+        f"signature={_quoted(written.signature)}",
+        f"confused_with={_lines('{', rivals, '}', 8)}",
+    )
+    entries["diagnosis"] = _lines("ForDiagnosis(", diagnosis, ")", 4)
+    return entries | ({"gauges": f"Gauges(target={_quoted(written.target)})"} if written.target else {})
 
 
 def _parameter(p: Parameter) -> str:
@@ -218,19 +223,20 @@ def _names(names: Sequence[str]) -> str:
     return f"({', '.join(map(_quoted, names))}{',' if len(names) == 1 else ''})"
 
 
-def _lines(opening: str, items: Sequence[str], closing: str) -> str:
+def _lines(opening: str, items: Sequence[str], closing: str, indent: int) -> str:
     """Return items between brackets, each on a line of its own; a single one of a tuple stays with them if it fits."""
     if len(items) == 1 and opening == "(" and len(items[0]) < WIDTH - 18:
         return f"({items[0]},)"
-    lines = [f"\n        {item}," for item in items]
-    return f"{opening}{''.join(lines)}\n    {closing}" if items else opening + closing
+    margin = " " * indent
+    lines = [f"\n{margin}    {item}," for item in items]
+    return f"{opening}{''.join(lines)}\n{margin}{closing}" if items else opening + closing
 
 
 def _imports(written: WrittenEffect) -> list[str]:
     """Return the groups of imports: of the standard library, numpy, ours; in each the order of ruff and isort."""
     homes = {**HOMES, **_ALWAYS}
     used = {name for hook in written.hooks for name in names_from_elsewhere(hook)}
-    used |= _ALWAYS.keys() - ({"RESPONSE"} if written.moves else set())
+    used |= _ALWAYS.keys() - ({"RESPONSE"} if written.moves else set()) - (set() if written.target else {"Gauges"})
     groups: dict[bool, list[str]] = {False: [], True: []}
     for module in sorted({homes[name] for name in used} - {"numpy"}):
         # constants before classes, and these before functions

@@ -17,7 +17,7 @@ _GIVEN: dict[str, str] = {
 }  # fmt: skip
 _RETURNED: dict[str, str] = {
     **dict.fromkeys(("stick", "pad", "drag"), "tuple[float, float]"),
-    **dict.fromkeys(("advance", "settle", "rest", "begin"), "None"),
+    **dict.fromkeys(("advance", "rest", "begin"), "None"),
     **dict.fromkeys(("gauge", "undo", "sharpen"), "Record"),
     "rig": "Specimen", "table": "np.ndarray", "balance": "dict[str, np.ndarray]", "flat": "dict[str, float]",
     "disturb": "list[list[dict[str, list[np.ndarray]]]]",

@@ -11,6 +11,7 @@ Source: 1.0 to 1.2 with the lay of the polish, assumed; the bound is an ellipse.
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 
 SLOW = 1e-3
@@ -22,14 +23,17 @@ def pad(bound: float, velocity_y: float, speed: float, ratio: float) -> tuple[fl
 
 
 EFFECT = Effect(
+    contract=1,
     port="pad",
-    component="pad friction",
-    equation="F = mu N (v_x, r v_y)/|v|",
     parameters=(
         Parameter("ratio", "1", 1.1, 0.5, 2.0, 1.0, "1.0 to 1.2, assumed", "r: friction across over along"),
     ),
-    moves=RESPONSE,
-    signature="only in force across, in proportion to v_y/|v|; nothing in shaking along x alone",
-    confused_with={"channel_gain": "a gain of the cells across also shows while the pads stick"},
-    needs=("across",),
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="F = mu N (v_x, r v_y)/|v|",
+        moves=RESPONSE,
+        signature="only in force across, in proportion to v_y/|v|; nothing in shaking along x alone",
+        confused_with={"channel_gain": "a gain of the cells across also shows while the pads stick"},
+        needs=("across",),
+    ),
 )  # fmt: skip

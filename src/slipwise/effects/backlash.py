@@ -10,7 +10,8 @@ Valid: play small against the stroke; no impact at its ends.
 Source: Coble et al. (2022) for a banded rotary friction damper with backlash; sizes assumed.
 """
 
-from slipwise.effects._effect import RESPONSE, Effect, Limit
+from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Limit
 from slipwise.params import Parameter
 
 
@@ -22,20 +23,23 @@ def stretch(force: float, load: float, play: float, push: float) -> float:
 
 
 EFFECT = Effect(
+    contract=1,
     port="train",
-    component="pad friction",
-    equation="x_c = x - (g/2) sign F",
     parameters=(
         Parameter("play", "m", 1e-3, 0.0, 20e-3, 0.0, "assumed: 0.1 to 5 mm", "g: of the joints", "mm"),
         Parameter("push", "1", 0.02, 0.002, 0.2, None, "assumed", "p: load's share that goes through the play", "%"),
     ),
-    moves=RESPONSE,
-    signature="after each reversal the gauge moves a fixed distance at hardly any force, then force rises at once",
-    confused_with={
-        "machine_compliance": "a spring carries from the first micrometre on",
-        "presliding": "force begins to grow at the reversal, not behind the play",
-    },
-    needs=("prescribed slip",),
-    # friction never closes the play, or the slip never crosses it
-    limits=(Limit("push", "high", "machine_compliance"), Limit("play", "high", "slide_curvature")),
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="x_c = x - (g/2) sign F",
+        moves=RESPONSE,
+        signature="after each reversal the gauge moves a fixed distance at hardly any force, then force rises at once",
+        confused_with={
+            "machine_compliance": "a spring carries from the first micrometre on",
+            "presliding": "force begins to grow at the reversal, not behind the play",
+        },
+        needs=("prescribed slip",),
+        # friction never closes the play, or the slip never crosses it
+        limits=(Limit("push", "high", "machine_compliance"), Limit("play", "high", "slide_curvature")),
+    ),
 )  # fmt: skip

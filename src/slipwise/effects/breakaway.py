@@ -19,6 +19,7 @@ from math import exp
 import numpy as np
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 
 
@@ -43,9 +44,8 @@ def rest(memory: np.ndarray, seconds: float, time: float) -> None:
 
 
 EFFECT = Effect(
+    contract=1,
     port="shear",
-    component="pad friction",
-    equation="mu += dmu (1 + b z) exp[-(V/v_s)^q],  dz/dt = (1 - z)/t_r - V z/L",
     parameters=(
         Parameter("rise", "1", 0.05, 0.0, 0.2, 0.0, "0.01 to 0.08 for PTFE on steel, assumed", "dmu: extra at rest"),
         Parameter("decay", "m/s", 0.02, 0.5e-3, 0.1, None, "1 to 20 mm/s, assumed", "v_s: speed of its end", "mm/s"),
@@ -54,13 +54,17 @@ EFFECT = Effect(
         Parameter("time", "s", 0.5, 5e-3, 50.0, None, "assumed", "t_r: of rest in which it grows"),
         Parameter("length", "m", 1e-3, 1e-5, 0.1, None, "assumed", "L: of slip that uses it up", "mm"),
     ),
-    moves=RESPONSE,
-    signature="odd in velocity, only below about 3 v_s: force spikes at first slip and after each reversal",
-    confused_with={
-        "rate_and_state": "constant slow speeds: a straight line over log V is rate_and_state",
-        "run_in": "repeat at once: run-in stays gone, breakaway is back at every reversal",
-        "key_clearance": "spikes of the key sit at a place, those of breakaway at zero speed",
-    },
-    adds=True,
     memory=("age",),
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="mu += dmu (1 + b z) exp[-(V/v_s)^q],  dz/dt = (1 - z)/t_r - V z/L",
+        moves=RESPONSE,
+        signature="odd in velocity, only below about 3 v_s: force spikes at first slip and after each reversal",
+        confused_with={
+            "rate_and_state": "constant slow speeds: a straight line over log V is rate_and_state",
+            "run_in": "repeat at once: run-in stays gone, breakaway is back at every reversal",
+            "key_clearance": "spikes of the key sit at a place, those of breakaway at zero speed",
+        },
+    ),
+    rare=Rare(adds=True),
 )  # fmt: skip

@@ -19,6 +19,7 @@ import numpy as np
 
 from slipwise.effects._disturbances import Number, axes, channel
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 from slipwise.record import Record
 from slipwise.signals.derivative import derivative
@@ -48,21 +49,24 @@ def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
 
 
 EFFECT = Effect(
+    contract=1,
     port="buffer",
-    component="buffer",
-    equation="F_b += z,  t_r dz/dt + z = c v (p = 1)",
     parameters=(
         Parameter("damping", "N*s/m", 7.45e3, 0.0, 100e3, 0.0, "4 % of critical, assumed", "c: per buffer", "kN*s/m"),
         Parameter("exponent", "1", 1.0, 0.2, 2.0, None, "Kelvin-Voigt", "p: 1 for a dashpot"),
         Parameter("relaxation", "s", 0.0, 0.0, 0.2, None, "Kelvin-Voigt: 0", "t_r: of a spring in series", "ms"),
     ),
-    moves=RESPONSE,
-    signature="odd and linear in v in the girder balance; pads clean",
-    confused_with={
-        "guide_drag": "only yaw and pitch tell: the drag acts at the girder, damping at the keys",
-        "buffer_hysteresis": "frequencies: damping grows with rate, hysteresis does not",
-        "channel_gain": "a gain of girder_ax follows acceleration: sine and quake differ in speed per slip",
-    },
-    same_unless={"guide_drag": ("yaw", "pitch")},
     memory=("dashpot",),
+    diagnosis=ForDiagnosis(
+        component="buffer",
+        equation="F_b += z,  t_r dz/dt + z = c v (p = 1)",
+        moves=RESPONSE,
+        signature="odd and linear in v in the girder balance; pads clean",
+        confused_with={
+            "guide_drag": "only yaw and pitch tell: the drag acts at the girder, damping at the keys",
+            "buffer_hysteresis": "frequencies: damping grows with rate, hysteresis does not",
+            "channel_gain": "a gain of girder_ax follows acceleration: sine and quake differ in speed per slip",
+        },
+    ),
+    rare=Rare(same_unless={"guide_drag": ("yaw", "pitch")}),
 )  # fmt: skip

@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 
 from slipwise.effects._disturbances import Number, axes, channel
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 from slipwise.record import Record
 
@@ -31,17 +32,20 @@ def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
 
 
 EFFECT = Effect(
+    contract=1,
     port="buffer",
-    component="buffer",
-    equation="F_b *= 1 + g (|x|/30 mm)^p",
     parameters=(
         Parameter("gain", "1", 0.1, -0.3, 2.0, 0.0, "0.05 to 0.5, assumed", "g: force added at 30 mm", "%"),
         Parameter("power", "1", 2.0, 0.5, 8.0, None, "assumed: 2", "p: 2 is a cubic spring"),
     ),
-    moves=RESPONSE,
-    signature="even in v and odd in x in the girder balance, only at the ends of the stroke",
-    confused_with={
-        "key_clearance": "a clearance is flat at the middle, hardening bends at the ends",
-        "buffer_softening": "softening remembers the largest stroke; a second run tells",
-    },
+    diagnosis=ForDiagnosis(
+        component="buffer",
+        equation="F_b *= 1 + g (|x|/30 mm)^p",
+        moves=RESPONSE,
+        signature="even in v and odd in x in the girder balance, only at the ends of the stroke",
+        confused_with={
+            "key_clearance": "a clearance is flat at the middle, hardening bends at the ends",
+            "buffer_softening": "softening remembers the largest stroke; a second run tells",
+        },
+    ),
 )  # fmt: skip

@@ -12,6 +12,7 @@ Source: equilibrium of moments; 0.1 m assumed.
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 from slipwise.rig import Specimen
 
@@ -22,17 +23,20 @@ def rig(specimen: Specimen, height: float) -> Specimen:
 
 
 EFFECT = Effect(
+    contract=1,
     port="rig",
-    component="buffer",
-    equation="pitch -= F_b z_b/b_x",
     parameters=(
         Parameter("height", "m", 0.1, -0.3, 1.0, 0.0, "assumed", "z_b: above the rated place", "mm"),
     ),
-    moves=RESPONSE,
-    signature="pitch of the loads in step with the buffers' force; nothing in heave, nothing in the girder balance",
-    confused_with={
-        "mass_eccentricity": "that is there at rest",
-        "table_pitch": "that goes with the table's acceleration, not with slip",
-    },
-    exact=True,
+    diagnosis=ForDiagnosis(
+        component="buffer",
+        equation="pitch -= F_b z_b/b_x",
+        moves=RESPONSE,
+        signature="pitch of the loads in step with the buffers' force; nothing in heave, nothing in the girder balance",
+        confused_with={
+            "mass_eccentricity": "that is there at rest",
+            "table_pitch": "that goes with the table's acceleration, not with slip",
+        },
+    ),
+    rare=Rare(exact=True),
 )  # fmt: skip

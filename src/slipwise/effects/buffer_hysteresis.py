@@ -19,6 +19,7 @@ import numpy as np
 
 from slipwise.effects._disturbances import Number, axes, channel, dahl_force
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 from slipwise.record import Record
 
@@ -57,19 +58,22 @@ def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
 
 
 EFFECT = Effect(
+    contract=1,
     port="buffer",
-    component="buffer",
-    equation="F_b += H z,  dz/ds = (1 - z)^i/u",
     parameters=(
         Parameter("strength", "N", 1e3, 0.0, 20e3, 0.0, "assumed: 2 % of the force at 28 mm", "H: per buffer", "kN"),
         Parameter("length", "m", 3e-3, 0.1e-3, 20e-3, None, "1 to 5 mm, assumed", "u: turns round in", "mm"),
         Parameter("exponent", "1", 1.0, 0.0, 1.0, None, "Dahl (1968): 1", "i: 1 Dahl, 0 elastic-plastic"),
     ),
-    moves=RESPONSE,
-    signature="a loop of constant width in the girder balance over x, at any frequency; pads clean",
-    confused_with={
-        "buffer_damping": "two frequencies of equal stroke: damping widens the loop with rate",
-        "key_friction": "that shows in heave",
-    },
     memory=("loop", "last"),
+    diagnosis=ForDiagnosis(
+        component="buffer",
+        equation="F_b += H z,  dz/ds = (1 - z)^i/u",
+        moves=RESPONSE,
+        signature="a loop of constant width in the girder balance over x, at any frequency; pads clean",
+        confused_with={
+            "buffer_damping": "two frequencies of equal stroke: damping widens the loop with rate",
+            "key_friction": "that shows in heave",
+        },
+    ),
 )  # fmt: skip

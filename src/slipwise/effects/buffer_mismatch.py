@@ -10,6 +10,7 @@ Source: two springs side by side; sizes assumed.
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -19,16 +20,19 @@ def spring(force: float, side: float, difference: float) -> float:
 
 
 EFFECT = Effect(
+    contract=1,
     port="buffer",
-    component="buffer",
-    equation="k_1 = k (1 + d),  k_2 = k (1 - d)",
     parameters=(
         Parameter("difference", "1", 0.05, -0.5, 0.5, 0.0, "10 % between two, assumed", "d: buffer 1 over mean", "%"),
     ),
-    moves=RESPONSE,
-    signature="yaw in step with slip x; pads at +y and -y slide by different amounts",
-    confused_with={
-        "mass_eccentricity": "its yaw goes with acceleration and shows in the loads at rest",
-        "pad_spread": "its yaw goes with friction: it changes sign with v, not with x",
-    },
+    diagnosis=ForDiagnosis(
+        component="buffer",
+        equation="k_1 = k (1 + d),  k_2 = k (1 - d)",
+        moves=RESPONSE,
+        signature="yaw in step with slip x; pads at +y and -y slide by different amounts",
+        confused_with={
+            "mass_eccentricity": "its yaw goes with acceleration and shows in the loads at rest",
+            "pad_spread": "its yaw goes with friction: it changes sign with v, not with x",
+        },
+    ),
 )  # fmt: skip

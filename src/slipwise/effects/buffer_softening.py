@@ -17,6 +17,7 @@ import numpy as np
 
 from slipwise.effects._disturbances import Number, axes, channel
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 from slipwise.record import Record
 
@@ -43,19 +44,22 @@ def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
 
 
 EFFECT = Effect(
+    contract=1,
     port="buffer",
-    component="buffer",
-    equation="F_b *= 1 + m exp[-(x_max/x_0)^q]",
     parameters=(
         Parameter("rise", "1", 0.2, -0.5, 1.0, 0.0, "0.1 to 0.3, assumed", "m: of virgin rubber over worked", "%"),
         Parameter("length", "m", 0.015, 1e-3, 0.1, None, "assumed", "x_0: stroke that works it", "mm"),
         Parameter("shape", "1", 1.0, 0.5, 4.0, None, "assumed: 1 to 2", "q: how it ends over the stroke"),
     ),
-    moves=RESPONSE,
-    signature="the first cycles of the first run are stiffer in the girder balance; memory of the largest slip",
-    confused_with={
-        "run_in": "that shows in the pads, this in the girder balance",
-        "buffer_hardening": "a second run at the same stroke: hardening is back, softening is not",
-    },
     memory=("largest",),
+    diagnosis=ForDiagnosis(
+        component="buffer",
+        equation="F_b *= 1 + m exp[-(x_max/x_0)^q]",
+        moves=RESPONSE,
+        signature="the first cycles of the first run are stiffer in the girder balance; memory of the largest slip",
+        confused_with={
+            "run_in": "that shows in the pads, this in the girder balance",
+            "buffer_hardening": "a second run at the same stroke: hardening is back, softening is not",
+        },
+    ),
 )  # fmt: skip

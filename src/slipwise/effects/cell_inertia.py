@@ -13,7 +13,7 @@ Source: Newton's second law for the plate; sizes assumed.
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import Gauges
+from slipwise.effects._fields import ForDiagnosis, Gauges, Rare
 from slipwise.effects._gauges import aimed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -41,32 +41,37 @@ def undo(record: Record, target: str, mass: float, horizontal: float, weighed: f
 
 
 EFFECT = Effect(
+    contract=1,
     port="gauge",
-    component="instrument",
-    equation="N_read = N + m_c a_z,  F_read = F - h m_c a",
     parameters=(
         Parameter("mass", "kg", 30.0, 0.0, 200.0, 0.0, "20 to 50 kg, assumed", "m_c: between pad and cell"),
         Parameter("horizontal", "1", 1.0, -1.5, 1.5, None, "1 by Newton for these signs", "h: horizontal share"),
         Parameter("weighed", "1", 0.0, 0.0, 1.0, None, "assumed: in the zero", "w: share of its weight that is read"),
     ),
-    fault=GaugeFault(
-        says="read the inertia of {size} between pad and cell",
-        settled_by="a sine below slip (0.03 g): what the cells read there in step with the table is inertia",
-        unit="kg",
-        least={"*": 6.0},
-        step=10.0,
-        forms={
-            "all cells": {"horizontal": 1.0, "weighed": 0.0},
-            "all cells, added": {"horizontal": -1.0, "weighed": 0.0},
+    diagnosis=ForDiagnosis(
+        component="instrument",
+        equation="N_read = N + m_c a_z,  F_read = F - h m_c a",
+        moves=("pad_*_F?", "pad_*_N"),
+        signature="even, in step with the table's acceleration, also while the pads stick; the same mass in heave",
+        confused_with={
+            "table_pitch": "that shows in the pitch of the loads",
+            "channel_gain": "a gain of a cell is in step with its own reading",
         },
     ),
-    moves=("pad_*_F?", "pad_*_N"),
-    signature="even, in step with the table's acceleration, also while the pads stick; the same mass in heave",
-    confused_with={
-        "table_pitch": "that shows in the pitch of the loads",
-        "channel_gain": "a gain of a cell is in step with its own reading",
-    },
-    target="channel",
-    exact=True,
-    gauges=Gauges(sits="pads"),
+    gauges=Gauges(
+        target="channel",
+        fault=GaugeFault(
+            says="read the inertia of {size} between pad and cell",
+            settled_by="a sine below slip (0.03 g): what the cells read there in step with the table is inertia",
+            unit="kg",
+            least={"*": 6.0},
+            step=10.0,
+            forms={
+                "all cells": {"horizontal": 1.0, "weighed": 0.0},
+                "all cells, added": {"horizontal": -1.0, "weighed": 0.0},
+            },
+        ),
+        sits="pads",
+    ),
+    rare=Rare(exact=True),
 )  # fmt: skip

@@ -14,6 +14,7 @@ import numpy as np
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
+from slipwise.effects._fields import ForDiagnosis, Gauges
 from slipwise.effects._gauges import changed, span
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -25,21 +26,26 @@ def gauge(record: Record, target: str, upper: float, lower: float) -> Record:
 
 
 EFFECT = Effect(
+    contract=1,
     port="gauge",
-    component="instrument",
-    equation="y = min(max(x, -r S), q S)",
     parameters=(
         Parameter("upper", "1", 0.25, 0.005, 1000.0, 1000.0, "assumed", "q: in spans of the gauge", "%"),
         Parameter("lower", "1", 0.25, 0.005, 1000.0, 1000.0, "assumed", "r: in spans of the gauge", "%"),
     ),
-    fault=GaugeFault(
-        says="is cut off at {size}",
-        settled_by="the gauge's range, and a run of smaller amplitude",
-        samples=("upper rail", "lower rail"),
+    diagnosis=ForDiagnosis(
+        component="instrument",
+        equation="y = min(max(x, -r S), q S)",
+        moves=("*",),
+        signature="plateaus of equal height at the peaks",
+        confused_with={"channel_gain": "a gain lowers every value, a rail only the peaks"},
     ),
-    moves=("*",),
-    signature="plateaus of equal height at the peaks",
-    confused_with={"channel_gain": "a gain lowers every value, a rail only the peaks"},
-    target="channel",
-    in_samples="only its slip: an actuator may rest at its ends, which looks like a rail",
+    gauges=Gauges(
+        target="channel",
+        fault=GaugeFault(
+            says="is cut off at {size}",
+            settled_by="the gauge's range, and a run of smaller amplitude",
+            samples=("upper rail", "lower rail"),
+        ),
+        in_samples="only its slip: an actuator may rest at its ends, which looks like a rail",
+    ),
 )  # fmt: skip

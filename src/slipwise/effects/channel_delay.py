@@ -12,6 +12,7 @@ Source: definition; 1 to 10 ms assumed.
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
+from slipwise.effects._fields import ForDiagnosis, Gauges
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -29,25 +30,30 @@ def undo(record: Record, target: str, delay: float) -> Record:
 
 
 EFFECT = Effect(
+    contract=1,
     port="gauge",
-    component="instrument",
-    equation="y(t) = x(t - tau)",
     parameters=(Parameter("delay", "s", 2e-3, -0.05, 0.05, 0.0, "1 to 10 ms, assumed", "tau: late by", "ms"),),
-    fault=GaugeFault(
-        says="comes {size} late",
-        settled_by="one tap with a hammer on the girder at rest shows every channel's delay and filter",
-        unit="s",
-        least={"*": 0.4e-3},
-        step=5e-4,
-        samples=("late",),
+    diagnosis=ForDiagnosis(
+        component="instrument",
+        equation="y(t) = x(t - tau)",
+        moves=("*",),
+        signature="residual goes with the channel's rate of change: biggest at reversals, a constant time",
+        confused_with={
+            "channel_filter": "below 1 ms they are one; beyond, a filter also lowers the peaks",
+            "presliding": "a constant distance, and the girder balance stays clean",
+        },
     ),
-    moves=("*",),
-    signature="residual goes with the channel's rate of change: biggest at reversals, a constant time",
-    confused_with={
-        "channel_filter": "below 1 ms they are one; beyond, a filter also lowers the peaks",
-        "presliding": "a constant distance, and the girder balance stays clean",
-    },
-    target="channel",
-    shifts=True,
-    lag="delay",
+    gauges=Gauges(
+        target="channel",
+        fault=GaugeFault(
+            says="comes {size} late",
+            settled_by="one tap with a hammer on the girder at rest shows every channel's delay and filter",
+            unit="s",
+            least={"*": 0.4e-3},
+            step=5e-4,
+            samples=("late",),
+        ),
+        shifts=True,
+        lag="delay",
+    ),
 )  # fmt: skip

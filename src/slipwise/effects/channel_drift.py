@@ -13,7 +13,7 @@ import numpy as np
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import Gauges
+from slipwise.effects._fields import ForDiagnosis, Gauges
 from slipwise.effects._gauges import changed, span
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -32,26 +32,31 @@ def undo(record: Record, target: str, drift: float, settling: float) -> Record:
 
 
 EFFECT = Effect(
+    contract=1,
     port="gauge",
-    component="instrument",
-    equation="y = x + d S t (w = 0)",
     parameters=(
         Parameter("drift", "1/s", 2e-4, -0.02, 0.02, 0.0, "assumed: 1.2 % a minute", "d: spans a second", "%/min"),
         Parameter("settling", "1/s", 0.0, 0.0, 5.0, None, "assumed: straight", "w: 0 straight, else it settles"),
     ),
-    fault=GaugeFault(
-        says="drifts by {size}",
-        settled_by="a record of some minutes in which nothing moves",
-        unit="channel/s",
-        least={"m/s^2": 0.01, "m": 2e-5, "N": 20.0, "rad": 3e-5},
-        forms={"": {"settling": 0.0}, ", settling": {"settling": 0.33}},
+    diagnosis=ForDiagnosis(
+        component="instrument",
+        equation="y = x + d S t (w = 0)",
+        moves=("*",),
+        signature="even, grows with time also while nothing moves",
+        confused_with={
+            "heating": "heating is odd in velocity and stops when the slip does",
+            "run_in": "run-in follows slid distance",
+        },
     ),
-    moves=("*",),
-    signature="even, grows with time also while nothing moves",
-    confused_with={
-        "heating": "heating is odd in velocity and stops when the slip does",
-        "run_in": "run-in follows slid distance",
-    },
-    target="channel",
-    gauges=Gauges(sits="alone"),
+    gauges=Gauges(
+        target="channel",
+        fault=GaugeFault(
+            says="drifts by {size}",
+            settled_by="a record of some minutes in which nothing moves",
+            unit="channel/s",
+            least={"m/s^2": 0.01, "m": 2e-5, "N": 20.0, "rad": 3e-5},
+            forms={"": {"settling": 0.0}, ", settling": {"settling": 0.33}},
+        ),
+        sits="alone",
+    ),
 )  # fmt: skip

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
+from slipwise.effects._fields import ForDiagnosis, Gauges
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -55,28 +56,33 @@ def sharpen(record: Record, target: str, lag: float, order: float) -> Record:
 
 
 EFFECT = Effect(
+    contract=1,
     port="gauge",
-    component="instrument",
-    equation="y = x / (1 + s T + s^2 T^2/2)",
     parameters=(
         Parameter("lag", "s", 3e-3, 0.0, 0.05, 0.0, "f_c 20 to 50 Hz, assumed", "T: of slow signals", "ms"),
         Parameter("order", "1", 2.0, 1.0, 8.0, None, "assumed", "of the filter", whole=True),
     ),
-    fault=GaugeFault(
-        says="went through a slower filter than the others: a lag of {size}",
-        settled_by="one tap with a hammer on the girder at rest shows every channel's delay and filter",
-        unit="s",
-        least={"*": 0.6e-3},
-        step=1e-3,
-        forms={", order 1": {"order": 1.0}, ", order 2": {"order": 2.0}},
+    diagnosis=ForDiagnosis(
+        component="instrument",
+        equation="y = x / (1 + s T + s^2 T^2/2)",
+        moves=("*",),
+        signature="as a delay, with rounded reversals and lowered peaks",
+        confused_with={
+            "channel_delay": "below 1 ms they are one; a tap with a hammer tells",
+            "presliding": "a constant distance, and the girder balance stays clean",
+        },
     ),
-    moves=("*",),
-    signature="as a delay, with rounded reversals and lowered peaks",
-    confused_with={
-        "channel_delay": "below 1 ms they are one; a tap with a hammer tells",
-        "presliding": "a constant distance, and the girder balance stays clean",
-    },
-    target="channel",
-    lag="lag",
-    plainer="channel_delay",
+    gauges=Gauges(
+        target="channel",
+        fault=GaugeFault(
+            says="went through a slower filter than the others: a lag of {size}",
+            settled_by="one tap with a hammer on the girder at rest shows every channel's delay and filter",
+            unit="s",
+            least={"*": 0.6e-3},
+            step=1e-3,
+            forms={", order 1": {"order": 1.0}, ", order 2": {"order": 2.0}},
+        ),
+        lag="lag",
+        plainer="channel_delay",
+    ),
 )  # fmt: skip

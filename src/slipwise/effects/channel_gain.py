@@ -11,7 +11,7 @@ Source: definition; sizes assumed.
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import Gauges
+from slipwise.effects._fields import ForDiagnosis, Gauges
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -28,24 +28,29 @@ def undo(record: Record, target: str, gain: float) -> Record:
 
 
 EFFECT = Effect(
+    contract=1,
     port="gauge",
-    component="instrument",
-    equation="y = (1 + g) x",
     parameters=(Parameter("gain", "1", 0.03, -0.5, 1.0, 0.0, "1 to 5 %, assumed", "g: error of the gain", "%"),),
-    fault=GaugeFault(
-        says="reads {size} too much",
-        settled_by="a calibration of that gauge; for cells a known weight, for accelerometers a turn by 90 degrees",
-        least={"*": 0.008},
-        step=0.01,
-        scales=True,
-        samples=("dead", "scaled"),
+    diagnosis=ForDiagnosis(
+        component="instrument",
+        equation="y = (1 + g) x",
+        moves=("*",),
+        signature="odd and flat in everything; breaks the balances in proportion to the channel",
+        confused_with={
+            "pad_spread": "the girder balance stays clean with a spread of friction",
+            "buffer_damping": "for girder_ax: damping follows velocity, a gain follows acceleration",
+        },
     ),
-    moves=("*",),
-    signature="odd and flat in everything; breaks the balances in proportion to the channel",
-    confused_with={
-        "pad_spread": "the girder balance stays clean with a spread of friction",
-        "buffer_damping": "for girder_ax: damping follows velocity, a gain follows acceleration",
-    },
-    target="channel",
-    gauges=Gauges(balance_only=("*",)),
+    gauges=Gauges(
+        target="channel",
+        fault=GaugeFault(
+            says="reads {size} too much",
+            settled_by="a calibration of that gauge; for cells a known weight, for accelerometers a turn by 90 degrees",
+            least={"*": 0.008},
+            step=0.01,
+            scales=True,
+            samples=("dead", "scaled"),
+        ),
+        balance_only=("*",),
+    ),
 )  # fmt: skip

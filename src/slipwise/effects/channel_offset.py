@@ -11,7 +11,7 @@ Source: definition; spans of usual gauges and size assumed.
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import Gauges
+from slipwise.effects._fields import ForDiagnosis, Gauges, Rare
 from slipwise.effects._gauges import changed, span
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -28,26 +28,31 @@ def undo(record: Record, target: str, offset: float) -> Record:
 
 
 EFFECT = Effect(
+    contract=1,
     port="gauge",
-    component="instrument",
-    equation="y = x + o S",
     parameters=(Parameter("offset", "1", 0.002, -0.2, 0.2, 0.0, "assumed", "o: in spans of the gauge", "%"),),
-    fault=GaugeFault(
-        says="has its zero off by {size}",
-        settled_by="zero readings before and after, with the girder lifted for load cells",
-        unit="channel",
-        least={"m/s^2": 0.03, "m": 1e-4, "N": 40.0, "rad": 1e-4},
-        samples=("shifted",),
+    diagnosis=ForDiagnosis(
+        component="instrument",
+        equation="y = x + o S",
+        moves=("*",),
+        signature="even and constant, at rest too; zero readings before and after show it",
+        confused_with={
+            "slide_tilt": "a tilt follows N",
+            "direction_asymmetry": "that follows mu N and is nothing at rest",
+            "uneven_seating": "for a cell's N: an offset of one cell moves heave as well",
+        },
+        needs=("both directions",),
     ),
-    moves=("*",),
-    signature="even and constant, at rest too; zero readings before and after show it",
-    confused_with={
-        "slide_tilt": "a tilt follows N",
-        "direction_asymmetry": "that follows mu N and is nothing at rest",
-        "uneven_seating": "for a cell's N: an offset of one cell moves heave as well",
-    },
-    target="channel",
-    needs=("both directions",),
-    stands_for=("rig.zero_force",),
-    gauges=Gauges(sits="alone"),
+    gauges=Gauges(
+        target="channel",
+        fault=GaugeFault(
+            says="has its zero off by {size}",
+            settled_by="zero readings before and after, with the girder lifted for load cells",
+            unit="channel",
+            least={"m/s^2": 0.03, "m": 1e-4, "N": 40.0, "rad": 1e-4},
+            samples=("shifted",),
+        ),
+        sits="alone",
+    ),
+    rare=Rare(stands_for=("rig.zero_force",)),
 )  # fmt: skip

@@ -11,6 +11,7 @@ Source: definition.
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
+from slipwise.effects._fields import ForDiagnosis, Gauges
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -27,18 +28,23 @@ def undo(record: Record, target: str, sign: float) -> Record:
 
 
 EFFECT = Effect(
+    contract=1,
     port="gauge",
-    component="instrument",
-    equation="y = -x",
     parameters=(Parameter("sign", "1", -1.0, -1.0, 1.0, 1.0, "definition", "below zero: turned"),),
-    fault=GaugeFault(
-        says="has the wrong sign",
-        settled_by="one push by hand in a known direction",
-        samples=("turned",),
+    diagnosis=ForDiagnosis(
+        component="instrument",
+        equation="y = -x",
+        moves=("*",),
+        signature="odd; balances fail by twice the channel",
+        confused_with={"channel_gain": "a gain of -200 % is no gain"},
     ),
-    moves=("*",),
-    signature="odd; balances fail by twice the channel",
-    confused_with={"channel_gain": "a gain of -200 % is no gain"},
-    target="channel",
-    in_samples="only its slip: where force and slip disagree, the force is taken for the one that is reversed",
+    gauges=Gauges(
+        target="channel",
+        fault=GaugeFault(
+            says="has the wrong sign",
+            settled_by="one push by hand in a known direction",
+            samples=("turned",),
+        ),
+        in_samples="only its slip: where force and slip disagree, the force is taken for the one that is reversed",
+    ),
 )  # fmt: skip

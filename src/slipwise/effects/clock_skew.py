@@ -16,7 +16,7 @@ from scipy.ndimage import map_coordinates
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import Gauges
+from slipwise.effects._fields import ForDiagnosis, Gauges
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -47,21 +47,26 @@ def undo(record: Record, target: str, skew: float) -> Record:
 
 
 EFFECT = Effect(
+    contract=1,
     port="gauge",
-    component="instrument",
-    equation="y(t) = x(t (1 - e))",
     parameters=(Parameter("skew", "1", 1e-4, -2e-3, 2e-3, 0.0, "10 to 200 ppm, assumed", "e: of the clock", "ppm"),),
-    fault=GaugeFault(
-        says="runs by a clock of its own, {size} slow",
-        settled_by="one tap at the start and one at the end of a long record",
-        shown=(1e6, "ppm"),
-        least={"*": 6e-5},
-        step=1e-4,
+    diagnosis=ForDiagnosis(
+        component="instrument",
+        equation="y(t) = x(t (1 - e))",
+        moves=("*",),
+        signature="a delay that is nothing at the start and grows through the run",
+        confused_with={"channel_delay": "its delay is there from the start"},
     ),
-    moves=("*",),
-    signature="a delay that is nothing at the start and grows through the run",
-    confused_with={"channel_delay": "its delay is there from the start"},
-    target="channel",
-    shifts=True,
-    gauges=Gauges(sits="card"),
+    gauges=Gauges(
+        target="channel",
+        fault=GaugeFault(
+            says="runs by a clock of its own, {size} slow",
+            settled_by="one tap at the start and one at the end of a long record",
+            shown=(1e6, "ppm"),
+            least={"*": 6e-5},
+            step=1e-4,
+        ),
+        sits="card",
+        shifts=True,
+    ),
 )  # fmt: skip

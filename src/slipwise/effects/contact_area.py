@@ -17,6 +17,7 @@ Source: paper, eq. (3); k = 0.102 from the identification below eq. (8), its uni
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.effects._saturation import risen
 from slipwise.params import Parameter
 
@@ -27,19 +28,24 @@ def area(apparent_area: float, pressure: float, saturation: float) -> float:
 
 
 EFFECT = Effect(
+    contract=1,
     port="area",
-    component="pad friction",
-    equation="A_r = A [1 - exp(-k P)]",
     parameters=(
         Parameter(
             "saturation", "1/Pa", 0.102e-6, 0.01e-6, 1.0e-6, None, "paper, below eq. (8): k = 0.102 (1/MPa)",
             "k: how fast the real area fills the apparent one", "1/MPa",
         ),
     ),
-    moves=RESPONSE,
-    signature="friction grows less than load: odd in velocity, a function of pressure only",
-    confused_with={"pressure_law": "sines of equal speed at several pressures"},
-    replaces="real area proportional to load, eq. (2)",
-    base="law",
-    stands_for=("rig.plastic_pressure",),
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="A_r = A [1 - exp(-k P)]",
+        moves=RESPONSE,
+        signature="friction grows less than load: odd in velocity, a function of pressure only",
+        confused_with={"pressure_law": "sines of equal speed at several pressures"},
+    ),
+    rare=Rare(
+        replaces="real area proportional to load, eq. (2)",
+        base="law",
+        stands_for=("rig.plastic_pressure",),
+    ),
 )  # fmt: skip

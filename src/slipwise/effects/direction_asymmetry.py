@@ -10,6 +10,7 @@ Source: assumed.
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 
 
@@ -21,19 +22,22 @@ def shear(shear: float, velocity_x: float, speed: float, difference: float) -> f
 
 
 EFFECT = Effect(
+    contract=1,
     port="shear",
-    component="pad friction",
-    equation="mu *= 1 + d v_x/|v|",
     parameters=(
         Parameter("difference", "1", 0.03, -0.3, 0.3, 0.0, "assumed", "d: half the difference of the directions", "%"),
     ),
-    moves=RESPONSE,
-    signature="even in velocity, proportional to mu N: loops sit off centre, higher with more friction",
-    confused_with={
-        "channel_offset": "only a changing load tells: an offset does not follow mu N",
-        "slide_tilt": "a tilt goes with N, this with mu(V, P) N: it vanishes where friction is low",
-        "load_crosstalk": "as slide_tilt; the girder balance moves only with cross-talk",
-    },
-    needs=("both directions",),
-    stands_for=("rig.zero_force",),
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="mu *= 1 + d v_x/|v|",
+        moves=RESPONSE,
+        signature="even in velocity, proportional to mu N: loops sit off centre, higher with more friction",
+        confused_with={
+            "channel_offset": "only a changing load tells: an offset does not follow mu N",
+            "slide_tilt": "a tilt goes with N, this with mu(V, P) N: it vanishes where friction is low",
+            "load_crosstalk": "as slide_tilt; the girder balance moves only with cross-talk",
+        },
+        needs=("both directions",),
+    ),
+    rare=Rare(stands_for=("rig.zero_force",)),
 )  # fmt: skip

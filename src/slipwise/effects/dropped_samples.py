@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
+from slipwise.effects._fields import ForDiagnosis, Gauges
 from slipwise.effects._gauges import changed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -34,21 +35,26 @@ def gauge(record: Record, target: str, share: float, burst: float) -> Record:
 
 
 EFFECT = Effect(
+    contract=1,
     port="gauge",
-    component="instrument",
-    equation="y_i = y_(i-1) for a share of the samples",
     parameters=(
         Parameter("share", "1", 0.02, 0.0, 0.5, 0.0, "assumed", "of samples lost", "%"),
         Parameter("burst", "1", 1.0, 1.0, 100.0, None, "assumed", "samples lost at a time"),
     ),
-    fault=GaugeFault(
-        says="repeats or misses {size} of its samples",
-        settled_by="the logger's own counter of samples",
-        samples=("held", "lost", "gap", "wild"),
+    diagnosis=ForDiagnosis(
+        component="instrument",
+        equation="y_i = y_(i-1) for a share of the samples",
+        moves=("*",),
+        signature="runs of equal values; spikes in the rate",
+        confused_with={"channel_clipping": "a rail repeats one level, lost samples repeat any"},
     ),
-    moves=("*",),
-    signature="runs of equal values; spikes in the rate",
-    confused_with={"channel_clipping": "a rail repeats one level, lost samples repeat any"},
-    target="channel",
-    in_samples="only its slip: an actuator may rest, and samples then repeat by themselves",
+    gauges=Gauges(
+        target="channel",
+        fault=GaugeFault(
+            says="repeats or misses {size} of its samples",
+            settled_by="the logger's own counter of samples",
+            samples=("held", "lost", "gap", "wild"),
+        ),
+        in_samples="only its slip: an actuator may rest, and samples then repeat by themselves",
+    ),
 )  # fmt: skip

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from slipwise.arrays import Array
 from slipwise.effects._disturbances import Number, swing_of
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -71,20 +72,23 @@ def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
 
 
 EFFECT = Effect(
+    contract=1,
     port="girder",
-    component="girder",
-    equation="q'' + 2 z w q' + w^2 q = -a_z,  sum N += m_e q''",
     parameters=(
         Parameter("share", "1", 0.3, 0.0, 0.9, 0.0, "0.81 for a simple beam; 0.3 assumed", "m_e/m: mass of the mode"),
         Parameter("frequency", "Hz", 15.0, 3.0, 60.0, None, "6 to 20 Hz, assumed", "of the mode on fixed ends"),
         Parameter("damping", "1", 0.02, 0.002, 0.2, None, "assumed", "z: of critical", "%"),
         Parameter("midspan", "1", 0.0, 0.0, 1.0, None, "0 over the pads, 1 in the middle", "gauge of a_z", whole=True),
     ),
-    moves=RESPONSE,
-    signature="sum N rings at one frequency after a_z has ended",
-    confused_with={
-        "key_friction": "that is locked to the buffers' force and does not ring",
-        "pad_compliance": "the pads' own frequency shows in pitch as well",
-    },
-    needs=("heave",),
+    diagnosis=ForDiagnosis(
+        component="girder",
+        equation="q'' + 2 z w q' + w^2 q = -a_z,  sum N += m_e q''",
+        moves=RESPONSE,
+        signature="sum N rings at one frequency after a_z has ended",
+        confused_with={
+            "key_friction": "that is locked to the buffers' force and does not ring",
+            "pad_compliance": "the pads' own frequency shows in pitch as well",
+        },
+        needs=("heave",),
+    ),
 )  # fmt: skip

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 
@@ -34,18 +35,21 @@ def balance(states: BalanceStates, damping: float, exponent: float) -> dict[str,
 
 
 EFFECT = Effect(
+    contract=1,
     port="girder",
-    component="girder",
-    equation="m a_x + sum F + F_b + c v = 0 (p = 1)",
     parameters=(
         Parameter("damping", "N*s/m", 500.0, 0.0, 50e3, 0.0, "0 to 0.5 kN s/m, assumed", "c: at v_0", "kN*s/m"),
         Parameter("exponent", "1", 1.0, 1.0, 2.0, None, "guides 1, air 2", "p: 1 for a dashpot"),
     ),
-    moves=RESPONSE,
-    signature="odd and linear in v, or quadratic, in the girder balance; pads and buffers clean",
-    confused_with={
-        "buffer_damping": "only yaw and pitch tell: the drag acts at the centre of gravity, damping at the keys",
-        "channel_gain": "a gain of girder_ax follows acceleration",
-    },
-    same_unless={"buffer_damping": ("yaw", "pitch")},
+    diagnosis=ForDiagnosis(
+        component="girder",
+        equation="m a_x + sum F + F_b + c v = 0 (p = 1)",
+        moves=RESPONSE,
+        signature="odd and linear in v, or quadratic, in the girder balance; pads and buffers clean",
+        confused_with={
+            "buffer_damping": "only yaw and pitch tell: the drag acts at the centre of gravity, damping at the keys",
+            "channel_gain": "a gain of girder_ax follows acceleration",
+        },
+    ),
+    rare=Rare(same_unless={"buffer_damping": ("yaw", "pitch")}),
 )  # fmt: skip

@@ -26,6 +26,7 @@ from math import exp, expm1, log, pi, sqrt
 import numpy as np
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 
 RATIO, FIRST, TERMS = 7.0, 0.02, 8
@@ -75,9 +76,8 @@ def rest(
 
 
 EFFECT = Effect(
+    contract=1,
     port="shear",
-    component="pad friction",
-    equation="mu *= k(T), T from the flux F V/A through 1/sqrt(t)",
     parameters=(
         Parameter("share", "1", 1.0, 0.0, 4.0, 0.0, "OpenSees FPBearingPTV: all heat into the steel", "g: of the heat"),
         Parameter("lump", "1", 0.0, 0.0, 1.0, None, "Kumar et al. (2015): half-space", "0 half-space, 1 one body"),
@@ -85,14 +85,18 @@ EFFECT = Effect(
         Parameter("cover", "1", 1.0, 0.0, 1.0, None, "OpenSees FPBearingPTV: 1", "c: flux lacking where uncovered"),
         Parameter("remains", "1", 0.4, 0.0, 2.0, None, "Kumar et al. (2015)", "b: what stays however hot it gets"),
     ),
-    moves=RESPONSE,
-    signature="odd; grows with dissipated energy, fades in a pause as 1/sqrt(t); the most loaded pad is hottest",
-    confused_with={
-        "run_in": "repeat at once and after a long rest: heat is gone by then, run-in is not undone",
-        "channel_drift": "a drift of a cell is even in velocity",
-    },
     memory=(
         *(f"heat_{i}" for i in range(TERMS)), "body", "temperature_rise",
         *(f"{what}_{i}" for what in ("kept", "taken") for i in range(TERMS + 1)), "step", "cooling",
+    ),
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="mu *= k(T), T from the flux F V/A through 1/sqrt(t)",
+        moves=RESPONSE,
+        signature="odd; grows with dissipated energy, fades in a pause as 1/sqrt(t); the most loaded pad is hottest",
+        confused_with={
+            "run_in": "repeat at once and after a long rest: heat is gone by then, run-in is not undone",
+            "channel_drift": "a drift of a cell is even in velocity",
+        },
     ),
 )  # fmt: skip

@@ -17,6 +17,7 @@ import numpy as np
 
 from slipwise.effects._disturbances import Number, axes, channel
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 from slipwise.record import Record
 
@@ -53,9 +54,8 @@ def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
 
 
 EFFECT = Effect(
+    contract=1,
     port="buffer",
-    component="buffer",
-    equation="F_b = k dz(x, c)",
     parameters=(
         Parameter("clearance", "m", 0.5e-3, 0.0, 10e-3, 0.0, "0.2 to 3 mm, assumed", "c: to either side", "mm"),
         Parameter(
@@ -63,10 +63,14 @@ EFFECT = Effect(
         ),
         Parameter("release", "1", 1.0, 0.0, 1.0, None, "Hunt & Crossley (1975): 1", "r: damping as the key comes out"),
     ),
-    moves=RESPONSE,
-    signature="the girder balance is flat near x = 0; acceleration spikes where |x| = c; pads clean",
-    confused_with={
-        "breakaway": "spikes of breakaway sit at zero speed, those of the key at a place",
-        "buffer_hardening": "hardening bends at the ends of the stroke",
-    },
+    diagnosis=ForDiagnosis(
+        component="buffer",
+        equation="F_b = k dz(x, c)",
+        moves=RESPONSE,
+        signature="the girder balance is flat near x = 0; acceleration spikes where |x| = c; pads clean",
+        confused_with={
+            "breakaway": "spikes of breakaway sit at zero speed, those of the key at a place",
+            "buffer_hardening": "hardening bends at the ends of the stroke",
+        },
+    ),
 )  # fmt: skip

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from slipwise.effects._disturbances import Number, channel, dahl_force, recorded, total_loads
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.effects._prandtl import prandtl
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
@@ -64,21 +65,24 @@ def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
 
 
 EFFECT = Effect(
+    contract=1,
     port="buffer",
-    component="buffer",
-    equation="V = -mu_k |F_b| [z + tanh(w/w_0)],  dz/dt = e w",
     parameters=(
         Parameter("friction", "1", 0.15, 0.0, 0.5, 0.0, "0.1 to 0.3 steel on steel, assumed", "mu_k: of the key"),
         Parameter("slow", "m/s", 1e-3, 0.2e-3, 1.0, None, "assumed", "w_0: speed of full friction", "mm/s"),
         Parameter("elastic", "1/m", 0.0, 0.0, 2e6, None, "assumed: stiff", "e: 1 over the way it gives"),
     ),
-    moves=RESPONSE,
-    signature="sum N differs from m (g + a_z), locked in phase to |F_b| and to the direction of heave",
-    confused_with={
-        "channel_delay": "a delay of N goes with d(a_z)/dt, also where no buffer pushes",
-        "girder_bending": "that rings on after a_z; key friction ends with it",
-        "channel_gain": "a gain is in step with a_z",
-    },
     memory=("given_way",),
-    needs=("heave",),
+    diagnosis=ForDiagnosis(
+        component="buffer",
+        equation="V = -mu_k |F_b| [z + tanh(w/w_0)],  dz/dt = e w",
+        moves=RESPONSE,
+        signature="sum N differs from m (g + a_z), locked in phase to |F_b| and to the direction of heave",
+        confused_with={
+            "channel_delay": "a delay of N goes with d(a_z)/dt, also where no buffer pushes",
+            "girder_bending": "that rings on after a_z; key friction ends with it",
+            "channel_gain": "a gain is in step with a_z",
+        },
+        needs=("heave",),
+    ),
 )  # fmt: skip

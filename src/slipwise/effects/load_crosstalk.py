@@ -13,7 +13,7 @@ Source: definition; sizes assumed.
 
 from slipwise.effects._effect import Effect
 from slipwise.effects._fault import GaugeFault
-from slipwise.effects._fields import Gauges
+from slipwise.effects._fields import ForDiagnosis, Gauges, Rare
 from slipwise.effects._gauges import aimed
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -38,28 +38,34 @@ def undo(record: Record, target: str, share: float, zeroed: float) -> Record:
 
 
 EFFECT = Effect(
+    contract=1,
     port="gauge",
-    component="instrument",
-    equation="F_read = F + c (N - z N_0)",
     parameters=(
         Parameter("share", "1", 0.01, -0.3, 0.3, 0.0, "0.5 to 2 %, assumed", "c: of N in F", "%"),
         Parameter("zeroed", "1", 0.0, 0.0, 1.0, None, "assumed", "z: 1 if zeroed under load"),
     ),
-    fault=GaugeFault(
-        says="feels {size} of the other direction's force",
-        settled_by="zero readings with the girder lifted, or a weight put on each cell alone",
-        least={"pad_*_N": 0.012, "*": 0.0015},
-        forms={"": {"zeroed": 0.0}, ", zeroed": {"zeroed": 1.0}},
+    diagnosis=ForDiagnosis(
+        component="instrument",
+        equation="F_read = F + c (N - z N_0)",
+        moves=("pad_*_F?", "pad_*_N"),
+        signature="even in velocity, in step with N, at rest too; moves the girder balance",
+        confused_with={
+            "slide_tilt": "identical in one pad; a tilt leaves the girder balance clean",
+            "channel_offset": "an offset does not follow N",
+            "direction_asymmetry": "that follows mu N and is nothing at rest",
+        },
+        needs=("both directions", "changing load"),
     ),
-    moves=("pad_*_F?", "pad_*_N"),
-    signature="even in velocity, in step with N, at rest too; moves the girder balance",
-    confused_with={
-        "slide_tilt": "identical in one pad; a tilt leaves the girder balance clean",
-        "channel_offset": "an offset does not follow N",
-        "direction_asymmetry": "that follows mu N and is nothing at rest",
-    },
-    target="channel",
-    needs=("both directions", "changing load"),
-    steady="an offset of the friction gauge",
-    gauges=Gauges(reads={"_Fx": "_N", "_Fy": "_N", "_N": "_Fx"}, balance_only=("pad_*_N",)),
+    gauges=Gauges(
+        target="channel",
+        fault=GaugeFault(
+            says="feels {size} of the other direction's force",
+            settled_by="zero readings with the girder lifted, or a weight put on each cell alone",
+            least={"pad_*_N": 0.012, "*": 0.0015},
+            forms={"": {"zeroed": 0.0}, ", zeroed": {"zeroed": 1.0}},
+        ),
+        reads={"_Fx": "_N", "_Fy": "_N", "_N": "_Fx"},
+        balance_only=("pad_*_N",),
+    ),
+    rare=Rare(steady="an offset of the friction gauge"),
 )  # fmt: skip

@@ -13,7 +13,8 @@ Valid: quasi-static; a machine whose own resonance lies above what was recorded.
 Source: Rice & Ruina (1983), spring and slider; stiffnesses assumed.
 """
 
-from slipwise.effects._effect import RESPONSE, Effect, Limit
+from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Limit
 from slipwise.params import Parameter
 
 
@@ -23,18 +24,21 @@ def stretch(force: float, compliance: float) -> float:
 
 
 EFFECT = Effect(
+    contract=1,
     port="train",
-    component="pad friction",
-    equation="x_c = x - c F",
     parameters=(
         Parameter("compliance", "m/N", 20e-9, 0.0, 5e-6, 0.0, "assumed: 50 kN/mm", "c: of the machine", "um/kN"),
     ),
-    moves=RESPONSE,
-    signature="after each reversal force rises along one straight line against the gauge, at any load; steps relax",
-    confused_with={
-        "presliding": "two loads: the machine's slope is the same at both, a contact's length is",
-        "backlash": "under play nothing is carried at first",
-    },
-    needs=("prescribed slip",),
-    limits=(Limit("compliance", "high", "slide_curvature"),),  # a contact that sticks for good
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="x_c = x - c F",
+        moves=RESPONSE,
+        signature="after each reversal force rises along one straight line against the gauge, at any load; steps relax",
+        confused_with={
+            "presliding": "two loads: the machine's slope is the same at both, a contact's length is",
+            "backlash": "under play nothing is carried at first",
+        },
+        needs=("prescribed slip",),
+        limits=(Limit("compliance", "high", "slide_curvature"),),  # a contact that sticks for good
+    ),
 )  # fmt: skip

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from slipwise.effects._disturbances import Number, total_loads
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -44,20 +45,22 @@ def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
 
 
 EFFECT = Effect(
+    contract=1,
     port="rig",
-    component="pad load",
-    equation="N_i += m (g + a_z) [x_c side_x/(4 b_x) + y_c side_y/(4 b_y)]",
     parameters=(
         Parameter("along", "m", 0.02, -0.3, 0.3, 0.0, "0.01 to 0.1 m, assumed", "x_c: towards +x", "mm"),
         Parameter("across", "m", 0.0, -0.3, 0.3, 0.0, "0.01 to 0.1 m, assumed", "y_c: towards +y", "mm"),
     ),
-    moves=RESPONSE,
-    signature="pitch and roll of the loads at rest and in step with a_z; yaw in horizontal motion",
-    confused_with={
-        "uneven_seating": "that moves warp only",
-        "buffer_mismatch": "its yaw goes with slip x, this one's with friction and acceleration",
-        "channel_gain": "a gain of one cell moves heave and warp too",
-    },
-    exact=True,
-    turns=True,
+    diagnosis=ForDiagnosis(
+        component="pad load",
+        equation="N_i += m (g + a_z) [x_c side_x/(4 b_x) + y_c side_y/(4 b_y)]",
+        moves=RESPONSE,
+        signature="pitch and roll of the loads at rest and in step with a_z; yaw in horizontal motion",
+        confused_with={
+            "uneven_seating": "that moves warp only",
+            "buffer_mismatch": "its yaw goes with slip x, this one's with friction and acceleration",
+            "channel_gain": "a gain of one cell moves heave and warp too",
+        },
+    ),
+    rare=Rare(exact=True, turns=True),
 )  # fmt: skip

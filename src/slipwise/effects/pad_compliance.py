@@ -11,6 +11,7 @@ Source: PTFE of 4 to 5 mm and 0.5 to 0.9 GPa gives 145 to 330 kN/mm; 5 % of crit
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 from slipwise.rig import Specimen
 
@@ -21,9 +22,8 @@ def rig(specimen: Specimen, stiffness: float, damping: float) -> Specimen:
 
 
 EFFECT = Effect(
+    contract=1,
     port="rig",
-    component="pad load",
-    equation="N = max(0, k_v d + c_v dd/dt)",
     parameters=(
         Parameter(
             "stiffness", "N/m", 200e6, 10e6, 2e9, None, "assumed: 145 to 330 kN/mm for PTFE of 4 to 5 mm",
@@ -33,9 +33,12 @@ EFFECT = Effect(
             "damping", "N*s/m", 70.7e3, 0.0, 1e6, None, "assumed: 5 % of critical", "c_v: of each pad", "kN*s/m",
         ),
     ),
-    moves=RESPONSE,
-    signature="N rings after reversals and amplifies a_z near the heave frequency",
-    confused_with={"girder_bending": "that rings in heave only and at another frequency than the pads' pitch"},
-    replaces="the specimen's rated springs",
-    base="springs",
+    diagnosis=ForDiagnosis(
+        component="pad load",
+        equation="N = max(0, k_v d + c_v dd/dt)",
+        moves=RESPONSE,
+        signature="N rings after reversals and amplifies a_z near the heave frequency",
+        confused_with={"girder_bending": "that rings in heave only and at another frequency than the pads' pitch"},
+    ),
+    rare=Rare(replaces="the specimen's rated springs", base="springs"),
 )  # fmt: skip

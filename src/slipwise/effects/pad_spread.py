@@ -15,6 +15,7 @@ from collections.abc import Iterator, Sequence
 
 from slipwise.effects._disturbances import Number, paired
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 from slipwise.record import Record
 from slipwise.rig import Specimen
@@ -35,9 +36,8 @@ def disturb(records: Sequence[Record], specimen: Specimen) -> Iterator[list[Numb
 
 
 EFFECT = Effect(
+    contract=1,
     port="shear",
-    component="pad friction",
-    equation="mu_i *= 1 + p side_x + r side_y + w side_x side_y + l_i",
     parameters=(
         Parameter("along", "1", 0.03, -0.3, 0.3, 0.0, "assumed", "p: pads A, C over B, D", "%"),
         Parameter("across", "1", 0.0, -0.3, 0.3, 0.0, "assumed", "r: pads A, B over C, D", "%"),
@@ -46,11 +46,15 @@ EFFECT = Effect(
             "level", "1", 0.0, -0.5, 1.0, 0.0, "assumed", "l_i: of a pad over the first one", "%", by_pad="others",
         ),
     ),
-    moves=RESPONSE,
-    signature="odd and flat in everything; differs from pad to pad and sums to zero",
-    confused_with={
-        "channel_gain": "the girder balance: a gain changes sum F, a spread of friction does not disturb the balance",
-        "uneven_seating": "that shows in the loads at rest",
-    },
-    needs=("several pads",),
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="mu_i *= 1 + p side_x + r side_y + w side_x side_y + l_i",
+        moves=RESPONSE,
+        signature="odd and flat in everything; differs from pad to pad and sums to zero",
+        confused_with={
+            "channel_gain": "the girder balance: a gain changes sum F, a spread of friction leaves it clean",
+            "uneven_seating": "that shows in the loads at rest",
+        },
+        needs=("several pads",),
+    ),
 )  # fmt: skip

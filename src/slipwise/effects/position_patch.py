@@ -11,7 +11,8 @@ Source: lubricated pads 0.1 to 0.4 of the friction, dirty ones 1.1 to 1.5; shape
 
 from math import exp
 
-from slipwise.effects._effect import RESPONSE, Effect, Limit
+from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Limit
 from slipwise.params import Parameter
 
 
@@ -30,9 +31,8 @@ def _height(pad: str, typical: float) -> Parameter:
 
 
 EFFECT = Effect(
+    contract=1,
     port="shear",
-    component="pad friction",
-    equation="mu *= 1 + c exp(-|(x - x_p)/l|^q)",
     parameters=(
         _height("a", 0.2),
         _height("b", 0.0),
@@ -45,11 +45,15 @@ EFFECT = Effect(
         Parameter("width", "m", 5e-3, 1e-3, 0.05, None, "assumed", "l: half width of the patch", "mm"),
         Parameter("edge", "1", 2.0, 1.0, 12.0, None, "assumed: 2 is Gaussian", "q: sharpness of its edge"),
     ),
-    moves=RESPONSE,
-    signature="odd, at one place of the stroke, mostly in one pad",
-    confused_with={
-        "heating": "its gate is at the middle and grows with time; a patch is there from the first cycle",
-        "key_clearance": "that shows in the girder balance, not in a pad",
-    },
-    limits=(Limit("width", "high"),),
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="mu *= 1 + c exp(-|(x - x_p)/l|^q)",
+        moves=RESPONSE,
+        signature="odd, at one place of the stroke, mostly in one pad",
+        confused_with={
+            "heating": "its gate is at the middle and grows with time; a patch is there from the first cycle",
+            "key_clearance": "that shows in the girder balance, not in a pad",
+        },
+        limits=(Limit("width", "high"),),
+    ),
 )  # fmt: skip

@@ -25,7 +25,8 @@ from math import exp, sqrt
 
 import numpy as np
 
-from slipwise.effects._effect import RESPONSE, Effect, Limit
+from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Limit, Rare
 from slipwise.params import Parameter
 
 LEAST, BRISTLES = 1e-3, 8
@@ -78,9 +79,8 @@ def begin(
 
 
 EFFECT = Effect(
+    contract=1,
     port="stick",
-    component="pad friction",
-    equation="F = F_b z/u,  dz/ds = (1 - z/u)^i",
     parameters=(
         Parameter("length", "m", 0.3e-3, 0.0, 5e-3, 0.0, "0.02 to 0.5 mm bare sheet, assumed", "u: bristle", "mm"),
         Parameter("exponent", "1", 1.0, 0.0, 1.0, None, "Dahl (1968): 1", "i: 1 Dahl, 0 elastic-plastic"),
@@ -89,12 +89,17 @@ EFFECT = Effect(
         Parameter("spectrum", "1", 0.0, 0.0, 1.0, None, "one length: 0", "w: spread of the lengths, 1 Iwan's parabola"),
         Parameter("rated", "N", 2770.0, 10.0, 1e5, None, "a choice, assumed: friction of a pad", "F_0", "kN"),
     ),
-    moves=RESPONSE,
-    signature="after each reversal force lags by a constant distance; small cycles never develop full friction",
-    confused_with={
-        "channel_delay": "reversals of different acceleration: constant distance is pre-sliding, constant time a delay",
-        "channel_filter": "the same; and the girder balance stays clean with pre-sliding",
-    },
     memory=("last_x", "last_y", "last_time", *(f"bristle_{k}_{axis}" for k in range(BRISTLES) for axis in "xy")),
-    base="stick", limits=(Limit("length", "high", "slide_curvature"),),  # what never slides is a spring
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="F = F_b z/u,  dz/ds = (1 - z/u)^i",
+        moves=RESPONSE,
+        signature="after each reversal force lags by a constant distance; small cycles never develop full friction",
+        confused_with={
+            "channel_delay": "unlike accelerations at reversals: one distance is pre-sliding, one time a delay",
+            "channel_filter": "the same; and the girder balance stays clean with pre-sliding",
+        },
+        limits=(Limit("length", "high", "slide_curvature"),),  # what never slides is a spring
+    ),
+    rare=Rare(base="stick"),
 )  # fmt: skip

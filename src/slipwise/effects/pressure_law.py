@@ -15,6 +15,7 @@ its values assumed.
 from math import exp, log
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 
 
@@ -25,17 +26,22 @@ def shear(shear: float, pressure: float, slope: float, bend: float, rated: float
 
 
 EFFECT = Effect(
+    contract=1,
     port="shear",
-    component="pad friction",
-    equation="mu *= exp[a ln(P/P_0) + c ln^2(P/P_0)]",
     parameters=(
         Parameter("slope", "1", -0.1, -3.0, 3.0, 0.0, "Kumar et al. (2015) at 17 MPa: -0.12", "a: exponent at P_0"),
         Parameter("bend", "1", 0.0, -2.0, 2.0, 0.0, "assumed", "c: change of the exponent with ln P"),
         Parameter("rated", "Pa", 16.882e6, 1e6, 100e6, None, "paper: 16.9 MPa at rest", "P_0: changes nothing", "MPa"),
     ),
-    moves=RESPONSE,
-    signature="odd, a function of pressure only: the slope of the trapezoid is wrong, the mean is right",
-    confused_with={"contact_area": "only a wide range of pressure tells: sines of equal peak speed and different a_z"},
-    needs=("changing load",),
-    steady="the strength of the base law",
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="mu *= exp[a ln(P/P_0) + c ln^2(P/P_0)]",
+        moves=RESPONSE,
+        signature="odd, a function of pressure only: the slope of the trapezoid is wrong, the mean is right",
+        confused_with={
+            "contact_area": "only a wide range of pressure tells: sines of equal peak speed and different a_z",
+        },
+        needs=("changing load",),
+    ),
+    rare=Rare(steady="the strength of the base law"),
 )  # fmt: skip

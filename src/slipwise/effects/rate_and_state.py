@@ -19,6 +19,7 @@ from math import exp, log
 import numpy as np
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 
 
@@ -53,9 +54,8 @@ def rest(memory: np.ndarray, seconds: float, length: float, slip: float, referen
 
 
 EFFECT = Effect(
+    contract=1,
     port="shear",
-    component="pad friction",
-    equation="mu += a ln[(V + V_c)/V_0] + b ln(V_0 theta/D_c)",
     parameters=(
         Parameter("direct", "1", 0.01, -0.03, 0.03, 0.0, "0.005 to 0.02, assumed for PTFE", "a: direct effect"),
         Parameter("state", "1", 0.005, -0.03, 0.03, 0.0, "0.005 to 0.02, assumed for PTFE", "b: of the age"),
@@ -64,12 +64,16 @@ EFFECT = Effect(
         Parameter("cutoff", "m/s", 1e-4, 1e-6, 1e-2, None, "assumed", "V_c: end of the direct effect", "mm/s"),
         Parameter("reference", "m/s", 0.1, 1e-3, 1.0, None, "a choice, assumed: mean speed of the rig", "V_0", "mm/s"),
     ),
-    moves=RESPONSE,
-    signature="odd; F/N is a straight line over log V; an overshoot at each jump of speed",
-    confused_with={
-        "shear_rate": "constant speeds over three decades: an exponential saturates, a logarithm does not",
-        "breakaway": "breakaway is nothing above 3 v_s; rate and state goes on",
-    },
-    adds=True,
     memory=("log_age",),
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="mu += a ln[(V + V_c)/V_0] + b ln(V_0 theta/D_c)",
+        moves=RESPONSE,
+        signature="odd; F/N is a straight line over log V; an overshoot at each jump of speed",
+        confused_with={
+            "shear_rate": "constant speeds over three decades: an exponential saturates, a logarithm does not",
+            "breakaway": "breakaway is nothing above 3 v_s; rate and state goes on",
+        },
+    ),
+    rare=Rare(adds=True),
 )  # fmt: skip

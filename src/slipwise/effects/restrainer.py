@@ -13,7 +13,8 @@ assumed.
 
 from math import sqrt
 
-from slipwise.effects._effect import RESPONSE, Effect, Limit
+from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Limit, Rare
 from slipwise.params import Parameter
 
 
@@ -27,20 +28,23 @@ def pad(slip_x: float, slip_y: float, stiffness: float, limit: float) -> tuple[f
 
 
 EFFECT = Effect(
+    contract=1,
     port="pad",
-    component="pad friction",
-    equation="F += k (r - r_limit)",
     parameters=(
         Parameter("stiffness", "N/m", 10e6, 0.0, 100e6, 0.0, "assumed: 10 kN/mm a pad", "k: of the rim", "kN/mm"),
         Parameter("limit", "m", 0.02, 0.001, 1.0, None, "assumed: 20 mm", "r_limit: slip at the rim", "mm"),
     ),
-    moves=RESPONSE,
-    signature="force shoots up beyond one slip, the same on the way out and back; the girder is thrown back",
-    confused_with={
-        "buffer_hardening": "that shows in the girder balance, this in the pads",
-        "slide_curvature": "that leans the whole loop, and in proportion to the load",
-    },
-    exact=True,
-    needs=("both directions",),
-    limits=(Limit("limit", "low", "slide_curvature"),),  # without a gap it is a spring through the middle
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="F += k (r - r_limit)",
+        moves=RESPONSE,
+        signature="force shoots up beyond one slip, the same on the way out and back; the girder is thrown back",
+        confused_with={
+            "buffer_hardening": "that shows in the girder balance, this in the pads",
+            "slide_curvature": "that leans the whole loop, and in proportion to the load",
+        },
+        needs=("both directions",),
+        limits=(Limit("limit", "low", "slide_curvature"),),  # without a gap it is a spring through the middle
+    ),
+    rare=Rare(exact=True),
 )  # fmt: skip

@@ -18,6 +18,7 @@ from math import exp, log1p
 import numpy as np
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -34,20 +35,23 @@ def advance(speed: float, dt: float, memory: np.ndarray) -> None:
 
 
 EFFECT = Effect(
+    contract=1,
     port="shear",
-    component="pad friction",
-    equation="mu *= 1 + r exp(-s/s_c)",
     parameters=(
         Parameter("rise", "1", 0.3, -0.8, 2.0, 0.0, "0.1 to 1.0, assumed", "r: of a new pad over a settled one"),
         Parameter("distance", "m", 0.1, 0.01, 10.0, None, "0.05 to 2 m, assumed", "s_c: in which it settles"),
         Parameter("tail", "1", 0.0, 0.0, 2.0, None, "assumed: exponential", "p: 0 exponential, 1 hyperbolic"),
     ),
-    moves=RESPONSE,
-    signature="odd; fades with slid distance, biggest in the first cycle; a repeated run shows none of it",
-    confused_with={
-        "heating": "repeat at once: run-in stays gone; after a pause heat is gone instead",
-        "buffer_softening": "that shows in the girder balance, this in the pads",
-        "channel_drift": "a drift goes on while nothing slides",
-    },
     memory=("slid",),
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="mu *= 1 + r exp(-s/s_c)",
+        moves=RESPONSE,
+        signature="odd; fades with slid distance, biggest in the first cycle; a repeated run shows none of it",
+        confused_with={
+            "heating": "repeat at once: run-in stays gone; after a pause heat is gone instead",
+            "buffer_softening": "that shows in the girder balance, this in the pads",
+            "channel_drift": "a drift goes on while nothing slides",
+        },
+    ),
 )  # fmt: skip

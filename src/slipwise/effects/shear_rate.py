@@ -13,6 +13,7 @@ size of mu; s/cm because energies are in kN cm and because n in the literature i
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.effects._saturation import risen
 from slipwise.params import Parameter
 
@@ -28,9 +29,8 @@ def flat(coefficient: float) -> dict[str, float]:
 
 
 EFFECT = Effect(
+    contract=1,
     port="shear",
-    component="pad friction",
-    equation="s = s' [1 - exp(-n V)] + alpha P_r",
     parameters=(
         Parameter(
             "strength", "Pa", 1.379e6, 0.1e6, 10.0e6, None, "paper, below eq. (8): s' = 1.379 (MPa)",
@@ -45,10 +45,16 @@ EFFECT = Effect(
             "alpha: friction coefficient at zero speed",
         ),
     ),
-    moves=RESPONSE,
-    signature="friction grows with speed up to about 0.1 m/s: odd in velocity, a function of speed only",
-    confused_with={"rate_and_state": "constant speeds: a straight line over log V is rate_and_state"},
-    replaces="constant shear strength (Coulomb)",
-    base="law",
-    stands_for=("rig.shear_strength",),
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="s = s' [1 - exp(-n V)] + alpha P_r",
+        moves=RESPONSE,
+        signature="friction grows with speed up to about 0.1 m/s: odd in velocity, a function of speed only",
+        confused_with={"rate_and_state": "constant speeds: a straight line over log V is rate_and_state"},
+    ),
+    rare=Rare(
+        replaces="constant shear strength (Coulomb)",
+        base="law",
+        stands_for=("rig.shear_strength",),
+    ),
 )  # fmt: skip

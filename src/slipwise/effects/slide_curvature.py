@@ -13,6 +13,7 @@ assumed.
 """
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 
 
@@ -22,19 +23,22 @@ def face(face: float, curvature: float) -> float:
 
 
 EFFECT = Effect(
+    contract=1,
     port="pad",
-    component="pad friction",
-    equation="1/R = 1/R_rated + curvature",
     parameters=(
         Parameter("curvature", "1/m", 0.05, -2.0, 2.0, 0.0, "R > 10 m for a flat plate, assumed", "1/R"),
     ),
-    moves=RESPONSE,
-    signature="even in velocity, proportional to N x: loops of the pads lean",
-    confused_with={
-        "buffer_hardening": "that shows in the girder balance, this in the pads",
-        "contact_area": "a load that rocks with the slip leans the loops too, but the other way round on the way back",
-        "restrainer": "a rim is met beyond a gap only: a larger stroke bends the loop, a sphere goes on straight",
-    },
-    exact=True,
-    needs=("both directions",),
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="1/R = 1/R_rated + curvature",
+        moves=RESPONSE,
+        signature="even in velocity, proportional to N x: loops of the pads lean",
+        confused_with={
+            "buffer_hardening": "that shows in the girder balance, this in the pads",
+            "contact_area": "a load that rocks with the slip leans the loops too, but the other way on the way back",
+            "restrainer": "a rim is met beyond a gap only: a larger stroke bends the loop, a sphere goes on straight",
+        },
+        needs=("both directions",),
+    ),
+    rare=Rare(exact=True),
 )  # fmt: skip

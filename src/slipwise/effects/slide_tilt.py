@@ -15,6 +15,7 @@ import numpy as np
 
 from slipwise.effects._disturbances import Number, paired
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.params import Parameter
 from slipwise.record import Record
 from slipwise.rig import Specimen
@@ -37,20 +38,22 @@ def disturb(records: Sequence[Record], specimen: Specimen) -> Iterator[list[Numb
 
 
 EFFECT = Effect(
+    contract=1,
     port="pad",
-    component="pad friction",
-    equation="F_x += N beta",
     parameters=(
         Parameter("tilt", "rad", 1.0 / 300.0, -0.02, 0.02, 0.0, "1/300, assumed", "beta: rise towards +x", "mrad"),
     ),
-    moves=RESPONSE,
-    signature="even in velocity, proportional to N: loops off centre, the girder drifts downhill",
-    confused_with={
-        "load_crosstalk": "identical in one pad; the girder balance moves with cross-talk only; level the table",
-        "channel_offset": "an offset does not follow N",
-        "direction_asymmetry": "that follows mu N, and is small where friction is low",
-    },
-    exact=True,
-    needs=("both directions", "changing load"),
-    steady="an offset of the friction gauge",
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="F_x += N beta",
+        moves=RESPONSE,
+        signature="even in velocity, proportional to N: loops off centre, the girder drifts downhill",
+        confused_with={
+            "load_crosstalk": "identical in one pad; the girder balance moves with cross-talk only; level the table",
+            "channel_offset": "an offset does not follow N",
+            "direction_asymmetry": "that follows mu N, and is small where friction is low",
+        },
+        needs=("both directions", "changing load"),
+    ),
+    rare=Rare(steady="an offset of the friction gauge", exact=True),
 )  # fmt: skip

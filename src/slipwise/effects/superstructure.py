@@ -15,6 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 from slipwise.rig import Specimen, fixed_base_frequencies
 
@@ -38,18 +39,21 @@ def rig(specimen: Specimen, stiffness: float, damping: float) -> Specimen:
 
 
 EFFECT = Effect(
+    contract=1,
     port="girder",
-    component="girder",
-    equation="k_i *= s,  c_i += 2 z k_i / w_1",
     parameters=(
         Parameter("stiffness", "1", 0.8, 0.2, 4.0, 1.0, "assumed", "s: of all storeys over rated"),
         Parameter("damping", "1", 0.01, -0.2, 0.3, 0.0, "assumed", "z: of the lowest mode, over rated", "%"),
     ),
-    moves=(*RESPONSE, "storey_*"),
-    signature="the floors ring at another frequency, or longer, than the frame's",
-    confused_with={
-        "girder_bending": "that rings in the heave of the loads; a frame sways in the floors' accelerations",
-        "channel_gain": "of a floor's accelerometer: it scales what that floor pushes at all frequencies alike",
-    },
-    needs=("storeys",),
+    diagnosis=ForDiagnosis(
+        component="girder",
+        equation="k_i *= s,  c_i += 2 z k_i / w_1",
+        moves=(*RESPONSE, "storey_*"),
+        signature="the floors ring at another frequency, or longer, than the frame's",
+        confused_with={
+            "girder_bending": "that rings in the heave of the loads; a frame sways in the floors' accelerations",
+            "channel_gain": "of a floor's accelerometer: it scales what that floor pushes at all frequencies alike",
+        },
+        needs=("storeys",),
+    ),
 )  # fmt: skip

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -25,15 +26,18 @@ def table(acceleration: NDArray[np.float64], up: float, across: float) -> NDArra
 
 
 EFFECT = Effect(
+    contract=1,
     port="table",
-    component="table",
-    equation="a_z += c a_x,  a_y += d a_x",
     parameters=(
         Parameter("up", "1", 0.05, -0.5, 0.5, 0.0, "1 to 10 %, assumed", "c: vertical share", "%"),
         Parameter("across", "1", 0.0, -0.5, 0.5, 0.0, "1 to 10 %, assumed", "d: share across", "%"),
     ),
-    moves=("table_*", *RESPONSE),
-    signature="sum N at the horizontal frequency; disappears with the measured vertical motion",
-    confused_with={"table_pitch": "that loads the pads in pitch, this in heave"},
-    needs=("command",),
+    diagnosis=ForDiagnosis(
+        component="table",
+        equation="a_z += c a_x,  a_y += d a_x",
+        moves=("table_*", *RESPONSE),
+        signature="sum N at the horizontal frequency; disappears with the measured vertical motion",
+        confused_with={"table_pitch": "that loads the pads in pitch, this in heave"},
+        needs=("command",),
+    ),
 )  # fmt: skip

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -22,14 +23,17 @@ def table(acceleration: NDArray[np.float64], gain: float) -> NDArray[np.float64]
 
 
 EFFECT = Effect(
+    contract=1,
     port="table",
-    component="table",
-    equation="a = (1 + e) a_given",
     parameters=(
         Parameter("gain", "1", -0.05, -0.5, 0.5, 0.0, "-10 to +5 %, assumed", "e: of the table over the motion", "%"),
     ),
-    moves=("table_*", *RESPONSE),
-    signature="everything at system level, nothing in pads or balances; disappears with the measured motion",
-    confused_with={"channel_gain": "a gain of the table's gauge also breaks slip = girder - table"},
-    needs=("command",),
+    diagnosis=ForDiagnosis(
+        component="table",
+        equation="a = (1 + e) a_given",
+        moves=("table_*", *RESPONSE),
+        signature="everything at system level, nothing in pads or balances; disappears with the measured motion",
+        confused_with={"channel_gain": "a gain of the table's gauge also breaks slip = girder - table"},
+        needs=("command",),
+    ),
 )  # fmt: skip

@@ -20,6 +20,7 @@ import numpy as np
 from slipwise.arrays import Array
 from slipwise.effects._disturbances import Number, channel, recorded
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -63,9 +64,8 @@ def disturb(records: Sequence[Record]) -> Iterator[list[Number]]:
 
 
 EFFECT = Effect(
+    contract=1,
     port="table",
-    component="table",
-    equation="theta ~ c a_x + c_g a_g:  a_x += g theta,  pitch of the loads -= I theta''/b_x",
     parameters=(
         Parameter(
             "compliance", "rad*s^2/m", 2e-4, -2e-3, 2e-3, 0.0, "0.06 degree at 5 m/s2, assumed", "c: nose down per a_x"
@@ -75,7 +75,11 @@ EFFECT = Effect(
         Parameter("damping", "1", 0.3, 0.05, 0.8, None, "oil column and its servo, assumed", "z of that resonance"),
         Parameter("gravity", "1", 1.0, 0.0, 1.0, None, "motion alone; 0: fixed to the girder", "g_s: in girder_ax"),
     ),
-    moves=("table_*", *RESPONSE),
-    signature="pitch of the loads and an even force, both in step with the table's or the girder's acceleration",
-    confused_with={"buffer_height": "that goes with slip", "cell_inertia": "that moves heave with a_z as well"},
+    diagnosis=ForDiagnosis(
+        component="table",
+        equation="theta ~ c a_x + c_g a_g:  a_x += g theta,  pitch of the loads -= I theta''/b_x",
+        moves=("table_*", *RESPONSE),
+        signature="pitch of the loads and an even force, both in step with the table's or the girder's acceleration",
+        confused_with={"buffer_height": "that goes with slip", "cell_inertia": "that moves heave with a_z as well"},
+    ),
 )  # fmt: skip

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from slipwise.channels import part_of
 from slipwise.effects._disturbances import Number
 from slipwise.effects._effect import RESPONSE, Effect
+from slipwise.effects._fields import ForDiagnosis, Rare
 from slipwise.effects._states import BalanceStates
 from slipwise.params import Parameter
 from slipwise.record import Record
@@ -55,18 +56,20 @@ def disturb(records: Sequence[Record], specimen: Specimen) -> Iterator[list[Numb
 
 
 EFFECT = Effect(
+    contract=1,
     port="rig",
-    component="pad load",
-    equation="N_i += k_v e side_x side_y",
     parameters=(
         Parameter("warp", "m", 2e-5, -2e-4, 2e-4, 0.0, "assumed: 0.02 mm", "e: pads A, D, or one, over the rest", "mm"),
     ),
-    moves=RESPONSE,
-    signature="constant warp of the loads, there at rest; nothing in heave, pitch, roll",
-    confused_with={
-        "channel_offset": "an offset of one cell moves heave too; zeros with the girder lifted tell",
-        "mass_eccentricity": "that moves pitch and roll, never warp",
-    },
-    exact=True,
-    single=True,
+    diagnosis=ForDiagnosis(
+        component="pad load",
+        equation="N_i += k_v e side_x side_y",
+        moves=RESPONSE,
+        signature="constant warp of the loads, there at rest; nothing in heave, pitch, roll",
+        confused_with={
+            "channel_offset": "an offset of one cell moves heave too; zeros with the girder lifted tell",
+            "mass_eccentricity": "that moves pitch and roll, never warp",
+        },
+    ),
+    rare=Rare(exact=True, single=True),
 )  # fmt: skip

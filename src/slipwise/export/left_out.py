@@ -53,7 +53,7 @@ def _fate(use: EffectUse) -> tuple[str, str]:
         return LOST, "a further force at the pads"
     if "face" in hooks:
         return _of_face(use)
-    if hooks & {"deflection", "spring", "settle"}:
+    if hooks & {"deflection", "spring"}:
         return WRITTEN, "buffers: the backbone, dashpot and loop that come nearest in this motion"
     if "drag" in hooks:
         return WRITTEN, "a dashpot at the centre of gravity, linear at the speeds of this motion"

@@ -42,7 +42,7 @@ _OF_RIG: dict[str, tuple[str, ...]] = {
     "storeys": ("storeys",),
 }
 _OF_PADS = PAD_HOOKS | {"stretch"}
-_OF_BUFFERS = frozenset({"deflection", "spring", "settle"})
+_OF_BUFFERS = frozenset({"deflection", "spring"})
 #: Samples of the states with which a `balance` hook is asked which balances it changes, and their step [s].
 _SAMPLES, _STEP = 256, 2e-3
 #: A strength that is typically zero is asked for at this share of its bound [1].

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from slipwise.effects import CONTRACT, Effect, find_effect
+from slipwise.effects import Effect, find_effect
 from slipwise.testing.checks import CHECKS, ContractError
 
 
@@ -39,13 +39,4 @@ def check_effect(effect: Effect | Path | str) -> tuple[str, ...]:
             broken.append(str(error))
     if broken:
         raise ContractError("\n".join(broken))
-    return _advice(found)
-
-
-def _advice(effect: Effect) -> tuple[str, ...]:
-    if effect.contract == CONTRACT:
-        return ()
-    return (
-        f"{effect.path.name} does not say for which contract it was written: add contract={CONTRACT} to EFFECT, so "
-        "that a later Slipwise reads it as it is meant",
-    )
+    return found.advice

@@ -16,7 +16,7 @@ from slipwise.units import parse_unit
 REACH: dict[str, frozenset[str]] = {
     **dict.fromkeys(("area", "shear", "coefficient", "stick", "pad", "face", "stretch"), frozenset({"pads"})),
     **dict.fromkeys(("deflection", "spring"), frozenset({"buffers", "balance heave"})),
-    "settle": frozenset({"buffers"}), "lift": frozenset({"lift"}), "drag": frozenset({"drag"}),
+    "lift": frozenset({"lift"}), "drag": frozenset({"drag"}),
     "rig": frozenset({"specimen"}), "table": frozenset({"table"}), "balance": frozenset({"balance *"}),
     "gauge": frozenset({"channels *"}),
 }  # fmt: skip

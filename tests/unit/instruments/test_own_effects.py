@@ -21,7 +21,7 @@ Source: assumed.
 
 import numpy as np
 
-from slipwise.effects import Effect, GaugeFault
+from slipwise.effects import Effect, ForDiagnosis, GaugeFault, Gauges
 from slipwise.params import Parameter
 
 
@@ -40,17 +40,22 @@ def undo(record, target, bend):
 
 
 EFFECT = Effect(
+    contract=1,
     port="gauge",
-    component="instrument",
-    equation="y = x + c x^2",
     parameters=(Parameter("bend", "s^2/m", 5e-3, -0.05, 0.05, 0.0, "assumed", "c: bend"),),
-    fault=GaugeFault(
-        says="bends by {size}", settled_by="a turn by 180 degrees", unit="s^2/m", least={"m/s^2": 1e-3}, step=1e-3
+    diagnosis=ForDiagnosis(
+        component="instrument",
+        equation="y = x + c x^2",
+        moves=("girder_ax",),
+        signature="even in what is measured",
+        confused_with={"channel_offset": "an offset is there at rest too"},
     ),
-    moves=("girder_ax",),
-    signature="even in what is measured",
-    confused_with={"channel_offset": "an offset is there at rest too"},
-    target="channel",
+    gauges=Gauges(
+        target="channel",
+        fault=GaugeFault(
+            says="bends by {size}", settled_by="a turn by 180 degrees", unit="s^2/m", least={"m/s^2": 1e-3}, step=1e-3
+        ),
+    ),
 )
 '''
 #: A force on the girder along x that grows with the square of slip.
@@ -62,7 +67,7 @@ Valid: strokes of some centimetres.
 Source: assumed.
 """
 
-from slipwise.effects import RESPONSE, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -77,13 +82,16 @@ def disturb(records):
 
 
 EFFECT = Effect(
+    contract=1,
     port="girder",
-    component="girder",
-    equation="F_x += c u^2",
     parameters=(Parameter("rise", "N/m^2", 1e5, -1e8, 1e8, 0.0, "assumed", "c: rise"),),
-    moves=RESPONSE,
-    signature="even in slip",
-    confused_with={"guide_drag": "that follows velocity"},
+    diagnosis=ForDiagnosis(
+        component="girder",
+        equation="F_x += c u^2",
+        moves=RESPONSE,
+        signature="even in slip",
+        confused_with={"guide_drag": "that follows velocity"},
+    ),
 )
 '''
 

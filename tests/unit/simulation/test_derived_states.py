@@ -108,7 +108,7 @@ Source: assumed.
 
 from math import exp
 
-from slipwise.effects import RESPONSE, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -118,16 +118,19 @@ def coefficient(coefficient, time_since_reversal, rise, decay):
 
 
 EFFECT = Effect(
+    contract=1,
     port="shear",
-    component="pad friction",
-    equation="mu += c exp(-t_r/t_0)",
     parameters=(
         Parameter("rise", "1", 0.05, -0.2, 0.2, 0.0, "assumed", "c"),
         Parameter("decay", "s", 0.03, 1e-3, 1.0, None, "assumed", "t_0"),
     ),
-    moves=RESPONSE,
-    signature="odd",
-    confused_with={},
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="mu += c exp(-t_r/t_0)",
+        moves=RESPONSE,
+        signature="odd",
+        confused_with={},
+    ),
 )
 '''
 

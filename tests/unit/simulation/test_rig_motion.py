@@ -24,7 +24,7 @@ Valid: a test.
 Source: assumed.
 """
 
-from slipwise.effects import RESPONSE, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -35,17 +35,20 @@ def pad(rocking_rate, table_velocity, table_acceleration, of_rocking_rate, of_ta
 
 
 EFFECT = Effect(
+    contract=1,
     port="pad",
-    component="pad friction",
-    equation="F_x += a omega + b v + c a",
     parameters=(
         Parameter("of_rocking_rate", "N s", 0.0, -1e6, 1e6, 0.0, "assumed", "a"),
         Parameter("of_table_velocity", "N s/m", 0.0, -1e6, 1e6, 0.0, "assumed", "b"),
         Parameter("of_table_acceleration", "kg", 0.0, -1e6, 1e6, 0.0, "assumed", "c"),
     ),
-    moves=RESPONSE,
-    signature="even",
-    confused_with={},
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="F_x += a omega + b v + c a",
+        moves=RESPONSE,
+        signature="even",
+        confused_with={},
+    ),
 )
 '''
 #: State -> a force per unit of it that hardly changes the motion.

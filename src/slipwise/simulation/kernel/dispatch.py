@@ -41,7 +41,6 @@ class Dispatch(Protocol):
         stretch: gives how far the loading train of a slider stretches under a force [m].
         deflection: gives what is left of a buffer's deflection [m].
         spring: gives a buffer's force [N].
-        settle: lets the memory of a buffer go on.
         lift: gives the vertical force at the shear keys [N].
         drag: gives the force against the girder's motion, along x and y [N].
         observe: brings the derived states of a pad up to date.
@@ -62,7 +61,6 @@ class Dispatch(Protocol):
     stretch: Callable[..., float]
     deflection: Callable[..., float]
     spring: Callable[..., float]
-    settle: Callable[..., None]
     lift: Callable[..., float]
     drag: Callable[..., tuple[float, float]]
     observe: Callable[..., None]
@@ -104,7 +102,6 @@ _HOOKS: dict[str, _Hook] = {
     "stretch": _Hook(("u", "force", "load"), ("stretched = 0.0",), ("stretched += {call}",), "stretched"),
     "deflection": _Hook(("u", "z", *_BUFFER), (), ("deflection = {call}",), "deflection"),
     "spring": _Hook(("u", "z", "force", *_BUFFER), (), ("force = {call}",), "force"),
-    "settle": _Hook(("u", "z", "force", *_BUFFER), (), ("{call}",), "None"),
     "lift": _Hook(("u", "z", "force_x", "force_y", *_GIRDER), ("force_z = 0.0",), ("force_z += {call}",), "force_z"),
     "drag": _Hook(("u", *_GIRDER), _NOTHING, _ADD, _FORCES),
 }

@@ -59,9 +59,7 @@ def buffer_spring(
     left = effects.deflection(u, z, left, rate, stiffness, side, time, dt)
     if left == 0.0 and deflection != 0.0:
         rate = 0.0
-    force = effects.spring(u, z, stiffness * left, left, rate, stiffness, side, time, dt)
-    effects.settle(u, z, force, left, rate, stiffness, side, time, dt)
-    return force
+    return effects.spring(u, z, stiffness * left, left, rate, stiffness, side, time, dt)
 
 
 @compilable

@@ -10,8 +10,8 @@ buffer.
 MAX_DOFS = 11
 #: Hooks whose effects act one after another in the order of the model.
 CHAINS: tuple[str, ...] = (
-    "area", "shear", "coefficient", "stick", "pad", "face", "advance", "stretch", "deflection", "spring", "settle",
-    "lift", "drag",
+    "area", "shear", "coefficient", "stick", "pad", "face", "advance", "stretch", "deflection", "spring", "lift",
+    "drag",
 )  # fmt: skip
 
 #: Step [s].
