@@ -17,7 +17,6 @@ rigs that are drawn, single sliders, and records sampled five times as finely, w
 import argparse
 import hashlib
 import json
-import sys
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -29,6 +28,8 @@ from scipy.signal import resample_poly
 
 import slipwise as sw
 from slipwise.diagnosis.diagnose import diagnose
+from slipwise_benchmarks import DRAWN, make_bearing, make_campaign, make_dirty, plan
+from slipwise_benchmarks.bearing import KINDS
 
 TESTS = Path(__file__).parents[1] / "tests"
 STORED = TESTS / "frozen_verdicts.json"
@@ -50,8 +51,6 @@ HELD = ("kind", "names", "probability", "base_error", "final_error", "relations"
 
 def campaigns() -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
     """Return name -> what makes the campaign in a folder, and its arguments."""
-    from bench import DRAWN, make_bearing, make_campaign, make_dirty, plan  # pyright: ignore[reportMissingImports]
-    from bench.bearing import KINDS  # pyright: ignore[reportMissingImports]
 
     def hidden(case: Any) -> dict[str, Any]:
         return {"effects": case.effects, "size": case.size, "rich": case.rich}
@@ -146,7 +145,6 @@ def main() -> None:
     parser.add_argument("--store", action="store_true", help=f"write {STORED.name} instead of holding against it")
     parser.add_argument("--quick", action="store_true", help="the replays and two campaigns")
     chosen = parser.parse_args()
-    sys.path.insert(0, str(TESTS))
     chosen.out.mkdir(parents=True, exist_ok=True)
     path = chosen.out / "results.jsonl"
     lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []

@@ -7,12 +7,11 @@
 
 Every verdict is one line of OUT/verdicts.jsonl, and the same command goes on where it stopped; `--anew` begins again.
 Printed are, by family and for all together: right, something absent named, material effects missed, and the median of
-the seconds. `tests/bench/family_score.py` says what is right. `scripts/calibrate.py` takes the evidence.
+the seconds. `slipwise_benchmarks.family_score` says what is right. `scripts/calibrate.py` takes the evidence.
 """
 
 import argparse
 import json
-import sys
 import time
 from collections import defaultdict
 from collections.abc import Mapping
@@ -23,6 +22,9 @@ from typing import Any
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.verdict import evidence_of, evidence_of_rest
 from slipwise.errors import SlipwiseError
+from slipwise_benchmarks.families import FAMILIES
+from slipwise_benchmarks.family_score import accused, missed, right
+from slipwise_benchmarks.family_store import make, orders
 
 TESTS = Path(__file__).parents[1] / "tests"
 #: What `--quick` diagnoses: single sliders take seconds.
@@ -86,10 +88,6 @@ def main() -> None:
     parser.add_argument("--anew", action="store_true", help="diagnose again what was diagnosed")
     parser.add_argument("--quick", action="store_true", help="make and diagnose one campaign")
     chosen = parser.parse_args()
-    sys.path.insert(0, str(TESTS))
-    from bench.families import FAMILIES  # pyright: ignore[reportMissingImports]
-    from bench.family_score import accused, missed, right  # pyright: ignore[reportMissingImports]
-    from bench.family_store import make, orders  # pyright: ignore[reportMissingImports]
 
     if chosen.quick:
         for order in orders(chosen.out, [FAMILIES[name] for name in QUICKEST], ["ode"], 1):

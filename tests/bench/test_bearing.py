@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench.bearing import KINDS, bearing_plan, draw_bearing, is_right, make_bearing, radius_error
-from bench.slider_friction import Drive
 from slipwise.campaign import load_campaign
 from slipwise.diagnosis.diagnose import diagnose
+from slipwise_benchmarks.bearing import KINDS, bearing_plan, draw_bearing, is_right, make_bearing, radius_error
+from slipwise_benchmarks.slider_friction import Drive
 
 
 def test_a_pendulum_without_friction_is_the_load_on_its_slope() -> None:

@@ -7,15 +7,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench import Campaign as Made
-from bench import build_campaign, make_bearing
-from bench.bearing import draw_bearing, drive_of, record, write_bearing
-from bench.campaign import with_faults
 from measured import as_campaign
-from rewritten import REWRITINGS, Rewriting, with_another_zero_of_slip
 from slipwise.campaign import Campaign, load_campaign
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.result import Diagnosis
+from slipwise_benchmarks import Campaign as Made
+from slipwise_benchmarks import build_campaign, make_bearing
+from slipwise_benchmarks.bearing import draw_bearing, drive_of, record, write_bearing
+from slipwise_benchmarks.campaign import with_faults
+from slipwise_benchmarks.rewritten import REWRITINGS, Rewriting, with_another_zero_of_slip
 
 #: What a probability may differ by [1]: written otherwise, and with other noise.
 _WRITTEN, _NOISE = 0.05, 0.15

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.diagnosis.reported_sizes import list_named_sizes
 from slipwise.effects import catalogue
@@ -14,6 +13,7 @@ from slipwise.estimation.intervals import compute_intervals
 from slipwise.relations.parameters import Term
 from slipwise.selection.hypothesis import Hypothesis, polish, refit
 from slipwise.selection.hypothesis_fit import make_fit
+from slipwise_benchmarks import build_campaign
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
 from measured import as_campaign
 from slipwise.model import base_model, use
 from slipwise.relations.girder import compute_heave_rate
@@ -17,6 +16,7 @@ from slipwise.relations.noise import (
 )
 from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.signals.oscillator import oscillator
+from slipwise_benchmarks import build_campaign
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.campaign import Logger
 from slipwise.effects import catalogue
@@ -18,6 +17,7 @@ from slipwise.selection.hypothesis import polish, refit, refit_for_report
 from slipwise.signals.filters import LowPass
 from slipwise.signals.oscillator import oscillator
 from slipwise.signals.pitch import pass_through_pitch
+from slipwise_benchmarks import build_campaign
 
 
 @pytest.mark.slow

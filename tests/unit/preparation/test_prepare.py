@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
 from measured import as_campaign
 from slipwise.campaign import Campaign, Run
 from slipwise.comparison.compare import compare
@@ -21,6 +20,7 @@ from slipwise.rig import load_specimen
 from slipwise.selection import select
 from slipwise.selection.candidates import list_candidates
 from slipwise.session.session import Session
+from slipwise_benchmarks import build_campaign
 
 PADS = "ABCD"
 LOADS = tuple(f"pad_{pad}_N" for pad in PADS)

@@ -6,13 +6,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.effects import catalogue, load_effect
 from slipwise.model import base_model, use
 from slipwise.relations.kinematics import YAW
 from slipwise.relations.parameters import YAW_INERTIA, Term
 from slipwise.selection.hypothesis import refit
+from slipwise_benchmarks import build_campaign
 
 
 @pytest.mark.slow

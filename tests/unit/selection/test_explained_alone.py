@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
 from measured import as_campaign, fit_base
 from slipwise.effects import catalogue
 from slipwise.regression.projection import make_projector
@@ -15,6 +14,7 @@ from slipwise.selection.candidates import list_candidates
 from slipwise.selection.explained_alone import explain_alone, list_least_sizes
 from slipwise.selection.hypothesis import polish, refit
 from slipwise.selection.inclusion import SEEN
+from slipwise_benchmarks import build_campaign
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,6 @@ from pathlib import Path
 
 import pytest
 
-from bench import make_bearing
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.preparation.prepare import prepare
@@ -14,6 +13,7 @@ from slipwise.selection.candidates import list_candidates
 from slipwise.selection.columns import compute_raw_columns, list_forms
 from slipwise.selection.importance import choose_shown
 from slipwise.selection.units import compute_units
+from slipwise_benchmarks import make_bearing
 
 
 @pytest.mark.parametrize(
