@@ -132,7 +132,8 @@ def table(scored: Sequence[Scored], campaigns: int) -> list[str]:
 def _line(family: str, here: Sequence[Scored]) -> str:
     judged = [one.complete for one in here if one.complete is not None]
     square = brier(here)
-    right, absent, missing = (sum(map(bool, flags)) for flags in zip(*((o.right, o.absent, o.missed) for o in here)))
+    right = sum(one.right for one in here)
+    absent, missing = sum(bool(one.absent) for one in here), sum(bool(one.missed) for one in here)
     return (
         f"{family:26s} {_of(right, len(here))}     {_of(absent, len(here))} {_of(missing, len(here))} "
         f"{_of(sum(judged), len(judged))} {'-' if square is None else f'{square:.3f}':>6s}"

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from measured import as_campaign, fit_base
+from measured import fit_base
 from slipwise.campaign import Campaign, Logger, Run, measured_states
 from slipwise.comparison.isolation_layer import describe_isolation_layer
 from slipwise.errors import InputError
@@ -21,6 +21,7 @@ from slipwise.rig.places import Buffer
 from slipwise.selection.candidates import NOTHING_SLIDES, list_candidates
 from slipwise.simulation.replay import replay
 from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 RNG = np.random.default_rng(5)
 NOISE = {"slip_x": 2e-5}

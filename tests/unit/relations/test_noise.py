@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from measured import as_campaign
 from slipwise.effects import catalogue
 from slipwise.model import base_model
 from slipwise.relations.measurement import compute_change_by_faults
@@ -11,6 +10,7 @@ from slipwise.relations.noise import compute_noise_of_correction, compute_revers
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.fixture(scope="module")
