@@ -163,7 +163,7 @@ def test_a_single_instant_is_answered_on_either_engine(engine: str) -> None:
 
 
 def read_anew() -> dict[str, Effect]:
-    """Read the catalogue beside the one that is kept: else every law of that one would count as a user's from here on."""
+    """Read the catalogue beside the one that is kept: else all laws of that one count as a user's from here on."""
     return catalogue.__wrapped__()
 
 
