@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 
 from slipwise_benchmarks.__main__ import main
+from slipwise_benchmarks.hidden import INSTRUMENTS, PHYSICS
+from slipwise_benchmarks.hidden_rig import FRAME_EFFECTS
 from slipwise_benchmarks.verdicts import (
     Scored,
     UnusableVerdict,
@@ -72,6 +74,12 @@ def test_a_diagnosis_of_the_library_is_a_verdict(tmp_path: Path):
     (tmp_path / "a" / "diagnosis.json").write_text(json.dumps(said), encoding="utf-8")
     scored = score_folder({"a": answer("clean", run_in=2.0), "b": answer("clean")}, tmp_path)
     assert list(scored) == ["a"] and scored["a"].right and scored["a"].probability == 0.8
+
+
+def test_the_readme_lists_every_name_that_is_hidden():
+    text = (Path(__file__).parents[2] / "benchmarks" / "README.md").read_text(encoding="utf-8")
+    assert [name for name in (*PHYSICS, *INSTRUMENTS, *FRAME_EFFECTS) if f"`{name}`" not in text] == []
+    assert len(text.splitlines()) <= 120
 
 
 def test_a_stranger_makes_campaigns_and_has_verdicts_scored(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
