@@ -27,7 +27,7 @@ from slipwise_benchmarks.family_store import is_made, make, orders, read_answers
 TESTS = Path(__file__).parents[1] / "tests"
 MOST_WORKERS = 2
 #: Families whose campaigns are made within some seconds.
-QUICKEST = ("clean", "tribometers", "springs_and_walls", "hum_and_noise")
+QUICKEST = ("clean", "tribometers")
 
 
 def make_and_read(order: Any) -> tuple[bool, str]:

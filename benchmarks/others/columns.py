@@ -57,10 +57,8 @@ def read_runs(folder: Path) -> tuple[list[dict[str, np.ndarray]], float]:
             columns[word] = values * UNITS.get(rest.rstrip("]"), 1.0)
         runs.append(columns)
     if not float(mass) and "girder_ax" in runs[0]:  # nobody says it: what its pads carry
-        loads = [
-            np.nanmean(values) for name, values in runs[0].items() if name.startswith("pad_") and name.endswith("_N")
-        ]
-        return runs, float(sum(loads)) / 9.80665
+        loads = [values for name, values in runs[0].items() if name.startswith("pad_") and name.endswith("_N")]
+        return runs, float(np.nanmean(loads, axis=1).sum()) / 9.80665
     return runs, float(mass) * (1e3 if unit == "t" else 1.0)
 
 

@@ -79,7 +79,7 @@ def test_a_diagnosis_of_the_library_is_a_verdict(tmp_path: Path):
 def test_the_readme_lists_every_name_that_is_hidden():
     text = (Path(__file__).parents[2] / "benchmarks" / "README.md").read_text(encoding="utf-8")
     assert [name for name in (*PHYSICS, *INSTRUMENTS, *FRAME_EFFECTS) if f"`{name}`" not in text] == []
-    assert len(text.splitlines()) <= 120
+    assert len(text.splitlines()) <= 80
 
 
 def test_a_stranger_makes_campaigns_and_has_verdicts_scored(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
