@@ -2,7 +2,8 @@
 
 Every tool sees the same rows and the same columns; what differs is how it chooses among them. Only the fitted runs are
 read. A column is the force that a textbook form of the effect would add, from measured slips and loads, with lengths
-and times set to usual values. An effect is named where what was chosen for it has `MATERIAL` of the rms of its force.
+and times set to usual values. An effect is named where what was chosen for it does `MATERIAL` of the rms of its
+force beyond what the base law and all else that was chosen can do.
 """
 
 import json
@@ -167,10 +168,27 @@ def _lagged(slip: np.ndarray, length: float) -> np.ndarray:
     return out
 
 
+def without_base(problem: Problem) -> tuple[np.ndarray, np.ndarray]:
+    """Give force (n,) and columns (n, k) without what changes of the base law can do."""
+    q = np.linalg.qr(problem.base)[0]
+    return problem.force - q @ (q.T @ problem.force), problem.columns - q @ (q.T @ problem.columns)
+
+
 def named(problem: Problem, sizes: np.ndarray) -> list[str]:
-    """Give the effects of which the chosen columns are material, the largest first."""
-    order = np.argsort(-np.abs(sizes))
-    return list(dict.fromkeys(problem.names[i] for i in order if abs(sizes[i]) >= MATERIAL))
+    """Give the effects whose chosen columns are material, the largest first.
+
+    What counts is what neither the base law nor the other chosen columns can do: two columns that are nearly one have
+    large sizes of opposite signs.
+    """
+    chosen = np.flatnonzero(sizes)
+    columns = without_base(problem)[1][:, chosen]
+    alone = {}
+    for place, i in enumerate(chosen):
+        others = np.delete(columns, place, axis=1)
+        own = columns[:, place] - others @ np.linalg.lstsq(others, columns[:, place], rcond=None)[0]
+        alone[i] = abs(sizes[i]) * float(np.sqrt(np.mean(own**2)))
+    order = sorted(alone, key=lambda i: -alone[i])
+    return list(dict.fromkeys(problem.names[i] for i in order if alone[i] >= MATERIAL))
 
 
 def answer_all(folder: Path, tool: str, choose: Callable[[Problem], tuple[list[str], float | None]]) -> None:
@@ -182,7 +200,8 @@ def answer_folders(folder: Path, tool: str, choose: Callable[[Path], tuple[list[
     """Write verdicts of one tool on every campaign of a folder, to FOLDER/verdicts_TOOL/NAME.json."""
     out = folder / f"verdicts_{tool}"
     out.mkdir(exist_ok=True)
-    for campaign in sorted(path for path in (folder / "campaigns").iterdir() if path.is_dir()):
+    found = [path for path in (folder / "campaigns").iterdir() if path.is_dir()]
+    for campaign in sorted(found, key=lambda path: path.name.split("-")[::-1]):  # one of every family, then again
         try:
             effects, chance = choose(campaign)
             said = {"verdict": "named" if effects else "complete", "effects": effects, "probability": chance}

@@ -11,38 +11,37 @@ from pathlib import Path
 
 import lmfit
 import numpy as np
-from columns import Problem, answer_all, named
+from columns import Problem, answer_all, named, without_base
 
 STEPS = 6
 
 
-def fit(problem: Problem, chosen: list[int]) -> lmfit.minimizer.MinimizerResult:
-    """Fit the base law's changes and the sizes of the chosen columns."""
-    q = np.linalg.qr(problem.base)[0] * np.sqrt(problem.force.size)
-    table = np.column_stack([q, problem.columns[:, chosen]])
+def fit(force: np.ndarray, columns: np.ndarray, chosen: list[int]) -> lmfit.minimizer.MinimizerResult:
+    """Fit the sizes of the chosen columns, all without what changes of the base law can do."""
+    table = columns[:, chosen]
     values = lmfit.Parameters()
-    for i in range(table.shape[1]):
+    for i in range(len(chosen)):
         values.add(f"c{i}", value=0.0)
-    return lmfit.minimize(lambda p: problem.force - table @ np.array(list(p.valuesdict().values())), values,
+    return lmfit.minimize(lambda p: force - table @ np.array(list(p.valuesdict().values())), values,
                           method="least_squares", jac=lambda p: -table)  # fmt: skip
 
 
 def choose(problem: Problem) -> tuple[list[str], float | None]:
     """Climb the ladder."""
+    force, columns = without_base(problem)
     chosen: list[int] = []
-    best = fit(problem, chosen)
-    chance = None
+    least, chance = force.size * np.log(np.mean(force**2)), None  # AIC as lmfit counts it, of no column
+    sizes = np.zeros(columns.shape[1])
     for _ in range(STEPS):
-        fits = {i: fit(problem, [*chosen, i]) for i in range(problem.columns.shape[1]) if i not in chosen}
-        aic = np.array([best.aic, *(one.aic for one in fits.values())])
-        weights = np.exp(-0.5 * (aic - aic.min()))
+        fits = {i: fit(force, columns, [*chosen, i]) for i in range(columns.shape[1]) if i not in chosen}
+        aic = np.array([least, *(one.aic for one in fits.values())])
         nearest = min(fits, key=lambda i: fits[i].aic)
-        if fits[nearest].aic >= best.aic:
+        if fits[nearest].aic >= least:
             break
+        weights = np.exp(-0.5 * (aic - aic.min()))
         chance = float(weights.max() / weights.sum())
-        chosen, best = [*chosen, nearest], fits[nearest]
-    sizes = np.zeros(problem.columns.shape[1])
-    sizes[chosen] = list(best.params.valuesdict().values())[len(best.params) - len(chosen) :]
+        chosen, least = [*chosen, nearest], fits[nearest].aic
+        sizes[chosen] = list(fits[nearest].params.valuesdict().values())
     return named(problem, sizes), chance
 
 

@@ -10,14 +10,13 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from columns import MATERIAL, Problem, answer_all, named
+from columns import MATERIAL, Problem, answer_all, named, without_base
 from pysindy.optimizers import STLSQ
 
 
 def choose(problem: Problem) -> tuple[list[str], float | None]:
     """Give what is left above the threshold."""
-    q = np.linalg.qr(problem.base)[0]
-    columns, force = (a - q @ (q.T @ a) for a in (problem.columns, problem.force))
+    force, columns = without_base(problem)
     fit = STLSQ(threshold=MATERIAL, alpha=1e-6).fit(columns, force[:, None])
     return named(problem, np.asarray(fit.coef_).ravel()), None
 
