@@ -28,7 +28,6 @@ from slipwise.view.figures.style import styled
 from slipwise.view.words.effects import effect_rows, effects_table
 
 DOCS = Path(__file__).parents[1] / "docs"
-TESTS = DOCS.parent / "tests"
 _MADE = "<!-- made by scripts/make_docs.py -->\n\n"
 #: What an effect adds counts as nothing below this share of what it is added to [1].
 _NOTHING = 1e-6

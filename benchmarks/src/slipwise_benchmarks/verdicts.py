@@ -119,8 +119,12 @@ def table(scored: Sequence[Scored], campaigns: int) -> list[str]:
     lines.append(f"{'family':26s} {'right':>9s} {'absent named':>13s} {'missed':>9s} {'complete':>9s} {'Brier':>6s}")
     lines += [_line(family, here) for family, here in sorted(groups.items())]
     lines.append(_line("all", list(scored)))
-    rated = [{"truth": one, "said": {"probability": one.probability}} for one in scored if one.probability is not None]
-    rows = calibration(rated, FIFTHS, lambda one, _: one.right)
+    rated: list[dict[str, Any]] = [
+        {"truth": {"right": one.right}, "said": {"probability": one.probability}}
+        for one in scored
+        if one.probability is not None
+    ]
+    rows = calibration(rated, FIFTHS, lambda truth, _: truth["right"])
     lines += ["", "probability     said  right  verdicts"] if rows else ["", "no probability was given"]
     lines += [
         f"{row['low']:.1f} to {row['high']:.1f}      {row['said']:.2f}   {row['right']:.2f}  {row['count']:8d}"
