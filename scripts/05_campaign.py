@@ -7,21 +7,18 @@ its friction. Each `# %%` is a cell in an editor that knows notebooks. --quick l
 """
 
 import argparse
-import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
-
-from bench import make_campaign  # noqa: E402  # pyright: ignore[reportMissingImports]
-from slipwise.campaign import load_campaign  # noqa: E402
-from slipwise.comparison.compare import compare  # noqa: E402
-from slipwise.comparison.tables import as_json  # noqa: E402
-from slipwise.instruments.checks import check_instruments  # noqa: E402
-from slipwise.record import write_json, write_text  # noqa: E402
-from slipwise.view.pages.compare_page import compare_page  # noqa: E402
-from slipwise.view.recordings.compare_recording import write_compare_recording  # noqa: E402
-from slipwise.view.words.compare_answers import one_minute  # noqa: E402
-from slipwise.view.words.terminal import print_table  # noqa: E402
+from slipwise.campaign import load_campaign
+from slipwise.comparison.compare import compare
+from slipwise.comparison.tables import as_json
+from slipwise.instruments.checks import check_instruments
+from slipwise.record import write_json, write_text
+from slipwise.view.pages.compare_page import compare_page
+from slipwise.view.recordings.compare_recording import write_compare_recording
+from slipwise.view.words.compare_answers import one_minute
+from slipwise.view.words.terminal import print_table
+from slipwise_benchmarks import make_campaign
 
 
 def main() -> None:

@@ -6,8 +6,8 @@
     python scripts/07_bench.py --out out/bearings --bearings --count 20 --seed 52000
     python scripts/07_bench.py --quick
 
-Campaigns are made by `tests/bench`, whose physics is not the library's. Every finished campaign is one line of
-results.jsonl: a run that was stopped (Ctrl-C) shows what is done, and the same command goes on where it stopped.
+Campaigns are made by benchmarks/, whose physics is not the library's. Every finished campaign is one line
+of results.jsonl: a run that was stopped (Ctrl-C) shows what is done, and the same command goes on where it stopped.
 bench.html shows who is taken for whom (confusion.png), whether verdicts of probability 0.9 are right nine times in ten
 (calibration.png), how far the error falls (error_ratios.png), and every verdict that is wrong. bench.json has the
 numbers. Drawn campaigns are those of rigs of 1 to 100 t on three to eight pads, flat or curved, each with its
@@ -24,19 +24,33 @@ import argparse
 import json
 import shutil
 import signal
-import sys
 import time
 from pathlib import Path
 from typing import Any
+
+from slipwise_benchmarks import (
+    DRAWN,
+    bearing_plan,
+    is_right,
+    make_bearing,
+    make_campaign,
+    make_dirty,
+    plan,
+    radius_error,
+    write_truth,
+)
+from slipwise_benchmarks import score_dirty as score
+from slipwise_benchmarks.evidence import evidence_in
+from slipwise_benchmarks.page import bench_page, pictures
+from slipwise_benchmarks.resumed import read_results, run_jobs
+from slipwise_benchmarks.score import calibration, confusion, rates
+from slipwise_benchmarks.sizes import sizes
 
 TESTS = Path(__file__).parents[1] / "tests"
 
 
 def one(folder: Path, name: str, seed: int, hidden: dict[str, Any]) -> dict[str, Any]:
     """Make one campaign, diagnose it blind, and give both answers; `hidden` are arguments of `make_campaign`."""
-    sys.path.insert(0, str(TESTS))
-    from bench import make_campaign  # pyright: ignore[reportMissingImports]
-
     truth = make_campaign(folder / name, seed, **hidden)
     said = diagnosed(folder / name)
     shutil.rmtree(folder / name)
@@ -45,9 +59,6 @@ def one(folder: Path, name: str, seed: int, hidden: dict[str, Any]) -> dict[str,
 
 def one_dirty(folder: Path, name: str, seed: int, keep: bool) -> dict[str, Any]:
     """Make one dirty campaign where it is not there yet, diagnose it blind, and give both answers."""
-    sys.path.insert(0, str(TESTS))
-    from bench import make_dirty, write_truth  # pyright: ignore[reportMissingImports]
-
     answer = folder / "truth" / f"{name}.json"
     if not answer.exists():
         write_truth(answer, make_dirty(folder / name, seed).as_dict())
@@ -59,9 +70,6 @@ def one_dirty(folder: Path, name: str, seed: int, keep: bool) -> dict[str, Any]:
 
 def one_bearing(folder: Path, name: str, kind: str, seed: int) -> dict[str, Any]:
     """Make one test of a bearing, diagnose it blind, and give both answers."""
-    sys.path.insert(0, str(TESTS))
-    from bench import make_bearing  # pyright: ignore[reportMissingImports]
-
     truth = make_bearing(folder / name, kind, seed)
     said = diagnosed(folder / name)
     shutil.rmtree(folder / name)
@@ -70,7 +78,6 @@ def one_bearing(folder: Path, name: str, kind: str, seed: int) -> dict[str, Any]
 
 def diagnosed(folder: Path) -> dict[str, Any]:
     """Diagnose a campaign; one that breaks the diagnosis is counted as wrong, and shown."""
-    from bench.evidence import evidence_in  # pyright: ignore[reportMissingImports]
     from slipwise.campaign import load_campaign
     from slipwise.diagnosis.diagnose import diagnose
 
@@ -101,8 +108,6 @@ def _line(result: dict[str, Any], number: int, total: int) -> str:
 
 def work(chosen: argparse.Namespace, count: int) -> dict[str, tuple[Any, ...]]:
     """Give name -> what makes and diagnoses it, and with which arguments."""
-    from bench import DRAWN, bearing_plan, plan  # pyright: ignore[reportMissingImports]
-
     folder, seed = chosen.out / "campaigns", chosen.seed
     if chosen.dirty:
         names = {f"d{s:05d}": s for s in range(seed, seed + count)}
@@ -118,8 +123,6 @@ def work(chosen: argparse.Namespace, count: int) -> dict[str, tuple[Any, ...]]:
 
 def run(out: Path, cases: dict[str, tuple[Any, ...]], workers: int) -> list[dict[str, Any]]:
     """Run the campaigns that have no result yet; gives in order all results that there are, fewer if it is stopped."""
-    from bench.resumed import read_results, run_jobs  # pyright: ignore[reportMissingImports]
-
     out.mkdir(parents=True, exist_ok=True)
     done = {r["name"]: r for r in read_results(out / "results.jsonl")}
     left = {name: job for name, job in cases.items() if name not in done}
@@ -132,9 +135,6 @@ def run(out: Path, cases: dict[str, tuple[Any, ...]], workers: int) -> list[dict
 
 def show(out: Path, results: list[dict[str, Any]], planned: int) -> None:
     """Score results; print the rates, write the numbers, the pictures and the page."""
-    from bench.page import bench_page, pictures  # pyright: ignore[reportMissingImports]
-    from bench.score import calibration, confusion, rates  # pyright: ignore[reportMissingImports]
-    from bench.sizes import sizes  # pyright: ignore[reportMissingImports]
     from slipwise.record import write_json, write_text
     from slipwise.view.figures.canvas import save_figure
     from slipwise.view.figures.style import styled
@@ -159,7 +159,6 @@ def show(out: Path, results: list[dict[str, Any]], planned: int) -> None:
 
 def show_dirty(out: Path, results: list[dict[str, Any]]) -> None:
     """Score results of dirty campaigns; print the rates and what was wrong, write the numbers."""
-    from bench import score_dirty as score  # pyright: ignore[reportMissingImports]
     from slipwise.record import write_json
 
     counted, bad, loss = score.rates(results), score.wrong(results), score.log_loss(results)
@@ -178,7 +177,6 @@ def show_dirty(out: Path, results: list[dict[str, Any]]) -> None:
 
 def show_bearings(out: Path, results: list[dict[str, Any]]) -> None:
     """Print for each kind of bearing how many verdicts are right, and every wrong one; write the numbers."""
-    from bench import is_right, radius_error  # pyright: ignore[reportMissingImports]
     from slipwise.record import write_json
 
     pairs = [(r["name"], r["truth"], r["said"]) for r in results]
@@ -204,7 +202,6 @@ def show_bearings(out: Path, results: list[dict[str, Any]]) -> None:
 
 def main() -> None:
     """Run, score, print, draw."""
-    sys.path.insert(0, str(TESTS))
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=Path, default=Path("out/bench"))
     parser.add_argument("--count", type=int, default=300)

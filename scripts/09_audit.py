@@ -2,14 +2,13 @@
 
     python scripts/09_audit.py [--count 100] [--seed 900] [--out out/audit] [--quick]
 
-A few campaigns of the second simulator of `tests/bench`, in which nothing is missing, are measured again and again:
+A few campaigns of the second simulator of `benchmarks`, in which nothing is missing, are measured again and again:
 each time with fresh noise and one fault of random size. A planting counts as right when the fault is found on its own
 channel or card, its size is within 15 %, and no other gauge is accused. Complete campaigns, and the practice campaigns
 where they lie beside the project, are audited too: nobody must be accused.
 """
 
 import argparse
-import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -21,6 +20,8 @@ from slipwise.campaign import load_campaign
 from slipwise.instruments.audit import audit
 from slipwise.instruments.report import AuditReport
 from slipwise.record import write_json
+from slipwise_benchmarks import GROUPS, Fault, build_campaign, with_faults
+from slipwise_benchmarks.in_memory import as_campaign
 
 TESTS = Path(__file__).parents[1] / "tests"
 PRACTICE = Path(__file__).parents[2] / "shared" / "practice"
@@ -38,8 +39,6 @@ PLANTED: dict[str, tuple[tuple[str, ...], float, float, bool]] = {
 
 def draw(rng: np.random.Generator, effect: str) -> Any:
     """Draw one fault: where, how large, which variant."""
-    from bench import GROUPS, Fault  # pyright: ignore[reportMissingImports]
-
     places, low, high, both = PLANTED[effect]
     place = str(rng.choice(places)).replace("?", str(rng.choice(list("ABCD"))))
     size = float(rng.uniform(low, high)) * (float(rng.choice([-1.0, 1.0])) if both else 1.0)
@@ -71,9 +70,6 @@ def score(fault: Any, report: AuditReport) -> dict[str, Any]:
 
 def plantings(bases: list[Any], count: int, seed: int) -> Iterator[dict[str, Any]]:
     """Plant, audit and score, one kind of fault after the other."""
-    from bench import with_faults  # pyright: ignore[reportMissingImports]
-    from measured import as_campaign  # pyright: ignore[reportMissingImports]
-
     rng = np.random.default_rng(seed)
     for number in range(count):
         fault = draw(rng, list(PLANTED)[number % len(PLANTED)])
@@ -84,8 +80,6 @@ def plantings(bases: list[Any], count: int, seed: int) -> Iterator[dict[str, Any
 
 def innocent(bases: list[Any]) -> dict[str, list[str]]:
     """Audit the complete campaigns, and the practice campaigns whose gauges are right; give what is accused."""
-    from measured import as_campaign  # pyright: ignore[reportMissingImports]
-
     reports: dict[str, Callable[[], AuditReport]] = {
         f"complete {base.truth.seed}": lambda base=base: audit(as_campaign(base)) for base in bases
     }
@@ -102,8 +96,6 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=900, help="of campaigns and faults")
     parser.add_argument("--quick", action="store_true", help="one campaign, two faults, no other campaigns")
     chosen = parser.parse_args()
-    sys.path.insert(0, str(TESTS))
-    from bench import build_campaign  # pyright: ignore[reportMissingImports]
 
     bases = [
         build_campaign(chosen.seed + i, effects=(), rig=("bridge1", "bridge2")[i % 2])

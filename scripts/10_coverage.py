@@ -2,12 +2,11 @@
 
     python scripts/10_coverage.py [--repeats 40] [--seed 700] [--out out/coverage] [--quick]
 
-Campaigns of the second simulator of `tests/bench`, in which nothing is missing, are measured again and again with
+Campaigns of the second simulator of `benchmarks`, in which nothing is missing, are measured again and again with
 correlated noise, and fitted. A new rig, with base parameters off by several per cent, comes every fifth repeat.
 """
 
 import argparse
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,6 +16,8 @@ import numpy as np
 from slipwise.estimation.base_fit import fit_base
 from slipwise.estimation.intervals import compute_intervals
 from slipwise.record import write_json
+from slipwise_benchmarks import build_campaign, with_faults
+from slipwise_benchmarks.in_memory import as_campaign
 
 TESTS = Path(__file__).parents[1] / "tests"
 #: Correlation of a sample's noise with that of the one before [1].
@@ -46,9 +47,6 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=700)
     parser.add_argument("--quick", action="store_true", help="two repeats only")
     chosen = parser.parse_args()
-    sys.path.insert(0, str(TESTS))
-    from bench import build_campaign, with_faults  # pyright: ignore[reportMissingImports]
-    from measured import as_campaign  # pyright: ignore[reportMissingImports]
 
     count = 2 if chosen.quick else chosen.repeats
     inside: dict[str, list[bool]] = {}

@@ -3,7 +3,7 @@
     python scripts/11_discover.py --out out/discover --count 60 --seed 90000
     python scripts/11_discover.py --quick
 
-Campaigns are made by `tests/bench`, whose physics is not the library's: each has a law that no catalogue has, alone or
+Campaigns are made by `benchmarks`, whose physics is not the library's: each has a law that no catalogue has, alone or
 beside known effects, or none, clean or with many small imperfections. They go to OUT/campaigns/NAME, each with its
 truth.json, and are kept. Every finished campaign is one line of results.jsonl: a run that was stopped (Ctrl-C) shows
 what is done, and the same command goes on where it stopped. discover.json has the scores and every answer that is
@@ -12,10 +12,14 @@ wrong. A version of slipwise that cannot discover only makes the campaigns.
 
 import argparse
 import json
-import sys
 import time
 from pathlib import Path
 from typing import Any
+
+from slipwise_benchmarks import make_law_campaign
+from slipwise_benchmarks import score_discover as score
+from slipwise_benchmarks.resumed import read_results, run_jobs
+from slipwise_benchmarks.score_constants import constant_rows
 
 TESTS = Path(__file__).parents[1] / "tests"
 STORED = TESTS / "bench" / "stored_discoveries.json"
@@ -23,9 +27,6 @@ STORED = TESTS / "bench" / "stored_discoveries.json"
 
 def make(folder: Path, seed: int) -> dict[str, Any]:
     """Make a campaign where it is not there yet, and give its answer, which is written last."""
-    sys.path.insert(0, str(TESTS))
-    from bench import make_law_campaign  # pyright: ignore[reportMissingImports]
-
     answer = folder / "truth.json"
     if not answer.exists():
         make_law_campaign(folder, seed)
@@ -70,8 +71,6 @@ def _line(result: dict[str, Any], number: int, total: int) -> str:
 
 def run(out: Path, seeds: range, workers: int) -> list[dict[str, Any]]:
     """Run the campaigns that have no result yet; gives in order all results that there are, fewer if it is stopped."""
-    from bench.resumed import read_results, run_jobs  # pyright: ignore[reportMissingImports]
-
     (out / "campaigns").mkdir(parents=True, exist_ok=True)
     kept = read_results(out / "results.jsonl")
     done = {r["name"]: r for r in kept if r["said"] is not None or not can_discover()}
@@ -83,8 +82,6 @@ def run(out: Path, seeds: range, workers: int) -> list[dict[str, Any]]:
 
 def show(out: Path, results: list[dict[str, Any]]) -> None:
     """Score results; print the table and what was wrong, write the numbers."""
-    from bench import score_discover as score  # pyright: ignore[reportMissingImports]
-    from bench.score_constants import constant_rows  # pyright: ignore[reportMissingImports]
     from slipwise.record import write_json
 
     counted, parts, bad = score.rates(results), score.split(results), score.wrong(results)
@@ -101,7 +98,6 @@ def show(out: Path, results: list[dict[str, Any]]) -> None:
 
 def main() -> None:
     """Make, discover, score, print."""
-    sys.path.insert(0, str(TESTS))
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=Path, default=Path("out/discover"))
     parser.add_argument("--count", type=int, default=60)

@@ -193,7 +193,7 @@ def tried(command: Command, kills: int, out: Path, rng: random.Random) -> list[s
 def main() -> int:
     """Kill every command; 1 if anything was lost."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--quick", action="store_true", help="four kills of a replay only")
+    parser.add_argument("--quick", action="store_true", help="two kills of a replay only")
     parser.add_argument("--kills", type=int, default=100, help="of all commands together")
     parser.add_argument("--seed", type=int, default=1, help="of the moments")
     parser.add_argument("--only", help="one command")
@@ -203,7 +203,7 @@ def main() -> int:
     rng, wrong = random.Random(given.seed), list[str]()
     chosen = COMMANDS[:1] if given.quick else [c for c in COMMANDS if given.only in (None, c.name)]
     for command in chosen:
-        wrong += tried(command, 4 if given.quick else round(given.kills * command.share), given.out.resolve(), rng)
+        wrong += tried(command, 2 if given.quick else round(given.kills * command.share), given.out.resolve(), rng)
     print("\n".join(wrong) or "nothing was lost")
     return 1 if wrong else 0
 

@@ -2,7 +2,7 @@
 
     python scripts/14_wild_samples.py [--wild 200] [--units 40] [--seed 1] [--out out/wild] [--quick]
 
-Campaigns of the second simulator of `tests/bench` are audited as they are, and again with one burst of 1 to 20 samples
+Campaigns of the second simulator of `benchmarks` are audited as they are, and again with one burst of 1 to 20 samples
 in one channel, 3 to 10^9 times its range. A planting counts as right where exactly these samples are marked, the
 findings are those of the sound campaign, the noise of every gauge stays within 5 % and what the balances leave within
 10 %. Then single columns are multiplied by powers of ten, 9.81, 4.448, 25.4 or their inverses: right is a finding that
@@ -10,7 +10,6 @@ names channel and factor, and accuses nobody else.
 """
 
 import argparse
-import sys
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -23,6 +22,8 @@ from slipwise.errors import SlipwiseWarning
 from slipwise.instruments.audit import audit
 from slipwise.instruments.report import AuditReport
 from slipwise.record import write_json
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign as in_memory
 
 TESTS = Path(__file__).parents[1] / "tests"
 #: Seeds of the campaigns, and what is hidden in each; None: drawn.
@@ -46,9 +47,6 @@ class Sound:
 
 def made(quick: bool) -> list[Sound]:
     """Make the campaigns and audit them."""
-    from bench import build_campaign  # pyright: ignore[reportMissingImports]
-    from measured import as_campaign as in_memory  # pyright: ignore[reportMissingImports]
-
     seeds = list(CAMPAIGNS)[: 1 if quick else None]
     campaigns = [in_memory(build_campaign(seed, effects=CAMPAIGNS[seed])) for seed in seeds]
     campaigns = [replace(campaign, runs=campaign.runs[:RUNS]) for campaign in campaigns]
@@ -131,7 +129,6 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=Path("out/wild"))
     parser.add_argument("--quick", action="store_true")
     given = parser.parse_args()
-    sys.path.insert(0, str(TESTS))
     warnings.simplefilter("ignore", SlipwiseWarning)
     campaigns, rng = made(given.quick), np.random.default_rng(given.seed)
     told: dict[str, dict[str, object]] = {}

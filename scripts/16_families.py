@@ -4,8 +4,8 @@
     python scripts/16_families.py --out out/families --families gains temperature --makers replay --count 50
     python scripts/16_families.py --quick
 
-`tests/bench/families.py` says what the families are. Campaigns go to OUT/campaigns, answer keys to OUT/answers. What is
-there and was made by the code as it is now is kept: the same command goes on where it stopped. Every new campaign is
+`slipwise_benchmarks.families` says what the families are. Campaigns go to OUT/campaigns, answer keys to OUT/answers.
+What is there and was made by the code as it is now is kept: the same command goes on where it stopped. Each campaign is
 read once by the library. The table, OUT/families.csv, has a line for each family and maker: campaigns, seconds of
 processor time for one, how many have something that should be named, and whether the family is held out of training.
 """
@@ -21,15 +21,17 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+from slipwise_benchmarks.families import FAMILIES, MAKERS
+from slipwise_benchmarks.family_store import is_made, make, orders, read_answers
+
 TESTS = Path(__file__).parents[1] / "tests"
 MOST_WORKERS = 2
 #: Families whose campaigns are made within some seconds.
-QUICKEST = ("clean", "tribometers", "springs_and_walls", "hum_and_noise")
+QUICKEST = ("clean", "tribometers")
 
 
 def make_and_read(order: Any) -> tuple[bool, str]:
     """Make one campaign and let the library read it; gives whether that was possible, and a line about it."""
-    from bench.family_store import make  # pyright: ignore[reportMissingImports]
     from slipwise.campaign import load_campaign
     from slipwise.errors import SlipwiseError
 
@@ -44,7 +46,6 @@ def make_and_read(order: Any) -> tuple[bool, str]:
 
 def begin() -> None:
     """Let a worker find the bench."""
-    sys.path.insert(0, str(TESTS))
 
 
 def table(answers: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
@@ -68,8 +69,6 @@ def table(answers: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
 def main() -> int:
     """Make what is missing, and write the table."""
     begin()
-    from bench.families import FAMILIES, MAKERS  # pyright: ignore[reportMissingImports]
-    from bench.family_store import is_made, orders, read_answers  # pyright: ignore[reportMissingImports]
 
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=Path, default=Path("out/families"))

@@ -10,12 +10,11 @@ Every verdict is one line of OUT/verdicts.jsonl, and the same command goes on wh
 Printed are, by family and for all together: right, something absent named, material effects missed, and the median of
 the seconds. `--without` takes gauges of the pads from the records first (single sliders stay out: nothing of them would
 be left): a law is then not missed where it is a rival, or is said to be what the campaign cannot tell.
-`tests/bench/family_score.py` says what is right. `scripts/calibrate.py` takes the evidence.
+`slipwise_benchmarks.family_score` says what is right. `scripts/calibrate.py` takes the evidence.
 """
 
 import argparse
 import json
-import sys
 import time
 from collections import defaultdict
 from collections.abc import Mapping
@@ -26,8 +25,11 @@ from typing import Any
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.verdict import evidence_of, evidence_of_rest
 from slipwise.errors import SlipwiseError
+from slipwise_benchmarks.families import FAMILIES
+from slipwise_benchmarks.family_score import accused, missed, right
+from slipwise_benchmarks.family_store import make, orders
+from slipwise_benchmarks.without_gauges import answer_without, write_without
 
-TESTS = Path(__file__).parents[1] / "tests"
 #: What `--quick` diagnoses: single sliders take seconds.
 QUICKEST = ("springs_and_walls",)
 #: Families of one slider on an actuator.
@@ -94,11 +96,6 @@ def main() -> None:
     parser.add_argument("--anew", action="store_true", help="diagnose again what was diagnosed")
     parser.add_argument("--quick", action="store_true", help="make and diagnose one campaign")
     chosen = parser.parse_args()
-    sys.path.insert(0, str(TESTS))
-    from bench.families import FAMILIES  # pyright: ignore[reportMissingImports]
-    from bench.family_score import accused, missed, right  # pyright: ignore[reportMissingImports]
-    from bench.family_store import make, orders  # pyright: ignore[reportMissingImports]
-    from bench.without_gauges import answer_without, write_without  # pyright: ignore[reportMissingImports]
 
     if chosen.quick:
         for order in orders(chosen.out, [FAMILIES[name] for name in QUICKEST], ["ode"], 1):

@@ -13,7 +13,6 @@ the slip that was put off may be named.
 
 import argparse
 import json
-import sys
 import time
 from collections import defaultdict
 from collections.abc import Mapping
@@ -23,6 +22,9 @@ from typing import Any
 from slipwise.campaign import Campaign, load_campaign
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.errors import SlipwiseError
+from slipwise_benchmarks.families import FAMILIES
+from slipwise_benchmarks.family_store import make, orders
+from slipwise_benchmarks.rewritten import REWRITINGS
 
 TESTS = Path(__file__).parents[1] / "tests"
 #: What stands for the campaign as it is.
@@ -90,10 +92,6 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=12, help="campaigns of each family")
     parser.add_argument("--quick", action="store_true", help="make one campaign, written in one other way")
     chosen = parser.parse_args()
-    sys.path.insert(0, str(TESTS))
-    from bench.families import FAMILIES  # pyright: ignore[reportMissingImports]
-    from bench.family_store import make, orders  # pyright: ignore[reportMissingImports]
-    from rewritten import REWRITINGS  # pyright: ignore[reportMissingImports]
 
     if chosen.quick:
         chosen.ways = [REWRITINGS[0].name]

@@ -32,6 +32,18 @@ from pathlib import Path
 from types import CodeType, FrameType
 from typing import Any
 
+from slipwise_benchmarks.families import FAMILIES
+from slipwise_benchmarks.family_store import make, orders
+from thresholds import (
+    ROOT,
+    find_statements,
+    in_line_with_code,
+    moved,
+    read_table,
+    with_value,
+    write_table,
+)
+
 TESTS = Path(__file__).parents[1] / "tests"
 #: What `--quick` moves once, on one campaign of a single slider.
 QUICK = ("evidence.decision.EVEN_ODDS", "preparation.dead_cells._UNSEEN_WARP")
@@ -130,8 +142,6 @@ def turned(statements: list[Any], factors: list[float], folders: list[Path], row
         folders: of the campaigns.
         rows: verdicts that are there.
     """
-    from thresholds import ROOT, moved, read_table, with_value  # pyright: ignore[reportMissingImports]
-
     scales = {name: row["scales"] for name, row in read_table().items()}
     with tempfile.TemporaryDirectory() as place:
         library = Path(place) / "src"
@@ -190,21 +200,11 @@ def main() -> None:
     if chosen.diagnose:
         print_verdicts(chosen.diagnose, chosen.mention)
         return
-    sys.path.insert(0, str(TESTS))
-    from thresholds import (  # pyright: ignore[reportMissingImports]
-        find_statements,
-        in_line_with_code,
-        read_table,
-        write_table,
-    )
 
     if chosen.update:
         write_table(in_line_with_code(read_table()))
         return
     if chosen.quick:
-        from bench.families import FAMILIES  # pyright: ignore[reportMissingImports]
-        from bench.family_store import make, orders  # pyright: ignore[reportMissingImports]
-
         chosen.campaigns, chosen.only, chosen.factors = chosen.out / "campaigns", QUICK, [1.3]
         for order in orders(chosen.out, [FAMILIES["tribometers"]], ["ode"], 1):
             make(order)

@@ -11,22 +11,18 @@ in the folder and not done again.
 
 import argparse
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
 
 import slipwise as sw
 from slipwise.motion import TableMotion
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
-
-from bench.campaign import fit_amplitude, shake  # noqa: E402  # pyright: ignore[reportMissingImports]
-from bench.faults import Fault  # noqa: E402  # pyright: ignore[reportMissingImports]
-from bench.gauges import USUAL, Logger, measure  # noqa: E402  # pyright: ignore[reportMissingImports]
-from bench.motions import NATURAL, Motion, draw_quake, draw_sine  # noqa: E402  # pyright: ignore[reportMissingImports]
-from bench.settings import GRAVITY, random_rig, rated  # noqa: E402  # pyright: ignore[reportMissingImports]
-from bench.write import write_campaign  # noqa: E402  # pyright: ignore[reportMissingImports]
+from slipwise_benchmarks.campaign import fit_amplitude, shake
+from slipwise_benchmarks.faults import Fault
+from slipwise_benchmarks.gauges import USUAL, Logger, measure
+from slipwise_benchmarks.motions import NATURAL, Motion, draw_quake, draw_sine
+from slipwise_benchmarks.settings import GRAVITY, random_rig, rated
+from slipwise_benchmarks.write import write_campaign
 
 RIG = "bridge1"
 #: Effect -> what of the simulator's settings is its size.

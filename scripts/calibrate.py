@@ -18,7 +18,6 @@ each fifth come true.
 
 import argparse
 import json
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -34,6 +33,7 @@ from slipwise.arrays import Array
 from slipwise.campaign.materiality import Materiality
 from slipwise.evidence.calibration import Calibration, Logistic, compute_log_odds
 from slipwise.evidence.decision import decide, is_left
+from slipwise_benchmarks.family_score import may_be_named, right
 
 TESTS = Path(__file__).parents[1] / "tests"
 OUT = Path(__file__).parents[1] / "src" / "slipwise" / "evidence" / "calibration.json"
@@ -65,16 +65,12 @@ def read(folder: Path) -> list[Row]:
 
 def cases_of_presence(row: Row) -> list[Case]:
     """Give every effect that was found, and whether it is there."""
-    from bench.family_score import may_be_named  # pyright: ignore[reportMissingImports]
-
     there = set(row["answer"]["effects"]) | may_be_named(row["answer"])
     return [(of, name in there) for name, of in row["evidence"].items()]
 
 
 def cases_of_matter(row: Row) -> list[Case]:
     """Give every effect that matters if its size is what the posterior says, and whether it is there and near that."""
-    from bench.family_score import may_be_named  # pyright: ignore[reportMissingImports]
-
     sizes = {name: entry["of_limit"] for name, entry in row["answer"]["effects"].items()}
     named = may_be_named(row["answer"])
     clear = {name: of for name, of in row["evidence"].items() if not NEAR <= sizes.get(name, 0.0) < 1.0}
@@ -128,8 +124,6 @@ def parts_fitted(rows: Sequence[Row], before: Calibration) -> Calibration:
 
 def said_by(row: Row, chances: Calibration) -> tuple[float, bool, bool]:
     """Give what a calibration would say of a campaign: the probability, whether it is right, whether it is unknown."""
-    from bench.family_score import right  # pyright: ignore[reportMissingImports]
-
     of = {name: one for name, one in row["evidence"].items() if name not in row["at_limit"]}
     decided = decide(of, row["rest"], Materiality().channel, chances)
     faults = [name for name in row["effects"] if name not in row["evidence"]]
@@ -181,7 +175,6 @@ def report(said: Sequence[tuple[float, bool]], what: str) -> None:
 
 def main() -> None:
     """Read verdicts, fit, write."""
-    sys.path.insert(0, str(TESTS))
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="with verdicts.jsonl and answers, of 17_verdicts.py")
     parser.add_argument("--check", action="store_true", help="write nothing")

@@ -1,4 +1,4 @@
-"""Make campaigns with hidden effects, blind, with the second simulator of `tests/bench`.
+"""Make campaigns with hidden effects, blind, with the second simulator of `benchmarks`.
 
     python scripts/make_bench.py --out out/bench --count 300 --seed 1000
     python scripts/make_bench.py --out out/bench --effects run_in key_friction --size medium
@@ -19,6 +19,8 @@ from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
 
+from slipwise_benchmarks import DRAWN, SIZES, Case, make_campaign, make_dirty, plan, write_truth
+
 TESTS = Path(__file__).parents[1] / "tests"
 
 
@@ -38,9 +40,6 @@ class Order:
 
 def make(order: Order) -> str:
     """Make one campaign; the answer is written last."""
-    sys.path.insert(0, str(TESTS))
-    from bench import make_campaign, make_dirty, write_truth  # pyright: ignore[reportMissingImports]
-
     name, began = order.folder.name, time.perf_counter()
     if order.dirty:
         truth = make_dirty(order.folder, order.seed)
@@ -56,9 +55,6 @@ def make(order: Order) -> str:
 
 def orders(chosen: argparse.Namespace) -> list[Order]:
     """Give what has no answer yet."""
-    sys.path.insert(0, str(TESTS))
-    from bench import DRAWN, Case, plan  # pyright: ignore[reportMissingImports]
-
     count = 3 if chosen.quick else chosen.count
     cases = plan(count, chosen.seed)
     if chosen.effects is not None:
@@ -78,9 +74,6 @@ def orders(chosen: argparse.Namespace) -> list[Order]:
 
 def main(arguments: list[str] | None = None) -> int:
     """Read the command line and write the campaigns."""
-    sys.path.insert(0, str(TESTS))
-    from bench import SIZES  # pyright: ignore[reportMissingImports]
-
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=Path, default=Path("out/bench"), help="folder for campaigns and truth/")
     parser.add_argument("--count", type=int, default=36, help="campaigns of the even plan (a third complete)")

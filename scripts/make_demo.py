@@ -1,4 +1,4 @@
-"""Make the data of `slipwise demo`: a campaign with a hidden effect, from the second simulator in `tests/bench`.
+"""Make the data of `slipwise demo`: a campaign with a hidden effect, from the second simulator in `benchmarks`.
 
     python scripts/make_demo.py [--out src/slipwise/demo_data]
 
@@ -7,7 +7,6 @@ than the gauges' noise.
 """
 
 import argparse
-import sys
 import tempfile
 from pathlib import Path
 
@@ -15,14 +14,13 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from slipwise_benchmarks import make_campaign
+
 ROOT = Path(__file__).parents[1]
 
 
 def main() -> None:
     """Make, convert, write."""
-    sys.path.insert(0, str(ROOT / "tests"))
-    from bench import make_campaign  # pyright: ignore[reportMissingImports]
-
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=Path, default=ROOT / "src" / "slipwise" / "demo_data")
     parser.add_argument("--effect", default="run_in")

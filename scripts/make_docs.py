@@ -21,7 +21,6 @@ from slipwise.record import write_text
 from slipwise.view.words.effects import effects_table
 
 DOCS = Path(__file__).parents[1] / "docs"
-TESTS = DOCS.parent / "tests"
 MADE = "<!-- made by scripts/make_docs.py -->\n\n"
 #: Symbols that begin a sentence stay as they are.
 _SYMBOLS = ("mu", "dmu")
@@ -151,8 +150,7 @@ def command_line_page() -> str:
 
 def thresholds_page() -> str:
     """Write the page of the numbers by which a diagnosis decides, from their table and the comments in the code."""
-    sys.path.insert(0, str(TESTS))
-    from thresholds import BASES, SCALES, find_statements, read_table  # pyright: ignore[reportMissingImports]
+    from thresholds import BASES, SCALES, find_statements, read_table  # beside this script, where mkdocs does not look
 
     rows, meanings = read_table(), {one.name: one.meaning for one in find_statements()}
     packages: dict[str, dict[str, dict[str, Any]]] = {}

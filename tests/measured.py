@@ -1,37 +1,17 @@
-"""Campaigns of the second simulator as the library holds them, without files in between."""
+"""Campaigns in memory, fitted and mended as a command does it."""
 
-import hashlib
 from collections.abc import Sequence
-from pathlib import Path
 
-from bench import Campaign as Made
-from slipwise.campaign import Campaign, Logger, Run
+from slipwise.campaign import Campaign
 from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.base_fit import fit_base as fit_with_known_logger
-from slipwise.model import Model, base_model
+from slipwise.model import Model
 from slipwise.preparation.balance_records import BalanceRecords, leave_out_bad_rows
 from slipwise.preparation.logger import determine_logger
 from slipwise.preparation.masks import bridge_bad_samples, mask_bad_samples
 from slipwise.preparation.put_right import put_right
 from slipwise.preparation.sample_fault import SampleFault
-from slipwise.record import Record
-from slipwise.signals.filters import LowPass
-
-ROLES = ("fit", "fit", "fit", "repeat", "holdout")
-
-
-def as_campaign(made: Made) -> Campaign:
-    """Turn a campaign of the bench into one that is read, its logger known as far as the laboratory states it."""
-    chain = made.truth.logger
-    by = LowPass(chain.lowpass, chain.order, chain.phase)
-    runs = []
-    for (name, channels), role in zip(made.recorded.items(), ROLES, strict=True):
-        record = Record(channels["time"], {n: v for n, v in channels.items() if n != "time"})
-        runs.append(Run(name, role, record, 1800.0, None, f"{name}.csv", hashlib.sha256(name.encode()).hexdigest()))
-    rig = made.truth.rig
-    logger = Logger(by, known=True) if chain.stated else Logger()
-    return Campaign(f"bench {made.truth.seed}", rig, base_model(rig).specimen, logger, tuple(runs), Path())
 
 
 def fit_base(campaign: Campaign, model: Model | None = None, invalid: InvalidSamples | None = None) -> BaseFit:

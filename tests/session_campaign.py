@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from bench import build_campaign
-from bench.write import write_campaign
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.write import write_campaign
 
 #: What is missing in it.
 MISSING = "run_in"

@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench.bearing import KINDS, bearing_plan, draw_bearing, is_right, make_bearing, radius_error
-from bench.slider_friction import Drive
 from slipwise.campaign import load_campaign
 from slipwise.diagnosis.diagnose import diagnose
+from slipwise_benchmarks.bearing import KINDS, bearing_plan, draw_bearing, is_right, make_bearing, radius_error
+from slipwise_benchmarks.slider_friction import Drive
 
 
 def test_a_pendulum_without_friction_is_the_load_on_its_slope() -> None:
@@ -33,7 +33,11 @@ def test_the_plan_holds_every_kind_and_three_of_each_for_ten_pendulums() -> None
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    # springs and flat faces of other seeds are diagnosed in tests/recover and tests/unit/selection
+    "kind",
+    [pytest.param(kind, marks=pytest.mark.long if kind in ("spring", "flat") else ()) for kind in KINDS],
+)
 def test_a_bearing_is_named_as_what_it_is(tmp_path: Path, kind: str) -> None:
     truth = make_bearing(tmp_path / kind, kind, 2)
     said = diagnose(load_campaign(tmp_path / kind)).as_json()

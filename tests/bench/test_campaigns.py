@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from bench.campaign import build_campaign, make_campaign
-from bench.faults import Fault, with_rails
-from bench.floors import noise_floors
-from bench.gauges import NOISE, RICH, USUAL, Logger, measure
-from bench.hidden import INSTRUMENTS, PHYSICS, draw, hide, plan
-from bench.settings import GRAVITY, PADS, rated
-from bench.write import unit_of
+from slipwise_benchmarks.campaign import build_campaign, make_campaign
+from slipwise_benchmarks.faults import Fault, with_rails
+from slipwise_benchmarks.floors import noise_floors
+from slipwise_benchmarks.gauges import NOISE, RICH, USUAL, Logger, measure
+from slipwise_benchmarks.hidden import INSTRUMENTS, PHYSICS, draw, hide, plan
+from slipwise_benchmarks.settings import GRAVITY, PADS, rated
+from slipwise_benchmarks.write import unit_of
 
 
 @pytest.fixture(scope="module")

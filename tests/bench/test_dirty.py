@@ -5,23 +5,23 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from bench.answer_key import Scene, alone, answer_key
-from bench.campaign import shake
-from bench.dirty import build_dirty
-from bench.dirty_logger import draw_dirty_logger
-from bench.dirty_plan import MIX, Plan, draw_plan, group_of
-from bench.faults import Fault
-from bench.first_things import KINDS
-from bench.floors import sizes_in_floors
-from bench.gauges import USUAL, Logger, measure, sensor
-from bench.importance import relative_changes
-from bench.other_forms import OTHER_FORMS
-from bench.pad_law import bristle
-from bench.planted import Plant, faults_of, together
-from bench.quakes import draw_pulse, draw_record, draw_sweep
-from bench.rig_ode import Memory
-from bench.settings import GRAVITY, PADS, rated
-from bench.write import campaign_toml
+from slipwise_benchmarks.answer_key import Scene, alone, answer_key
+from slipwise_benchmarks.campaign import shake
+from slipwise_benchmarks.dirty import build_dirty
+from slipwise_benchmarks.dirty_logger import draw_dirty_logger
+from slipwise_benchmarks.dirty_plan import MIX, Plan, draw_plan, group_of
+from slipwise_benchmarks.faults import Fault
+from slipwise_benchmarks.first_things import KINDS
+from slipwise_benchmarks.floors import sizes_in_floors
+from slipwise_benchmarks.gauges import USUAL, Logger, measure, sensor
+from slipwise_benchmarks.importance import relative_changes
+from slipwise_benchmarks.other_forms import OTHER_FORMS
+from slipwise_benchmarks.pad_law import bristle
+from slipwise_benchmarks.planted import Plant, faults_of, together
+from slipwise_benchmarks.quakes import draw_pulse, draw_record, draw_sweep
+from slipwise_benchmarks.rig_ode import Memory
+from slipwise_benchmarks.settings import GRAVITY, PADS, rated
+from slipwise_benchmarks.write import campaign_toml
 
 SPOTLESS = Plan("nothing", (), (), rich=False, runs=2, short=True, uplift=False)
 

@@ -5,13 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench.campaign import make_campaign
-from bench.drawn_rigs import DRAWN, draw_rig, possible_on
-from bench.hidden import hide
-from bench.specimen_text import specimen_toml
 from slipwise.campaign import load_campaign
 from slipwise.rig import load_specimen
 from slipwise.rig.statics import at_rest
+from slipwise_benchmarks.campaign import make_campaign
+from slipwise_benchmarks.drawn_rigs import DRAWN, draw_rig, possible_on
+from slipwise_benchmarks.hidden import hide
+from slipwise_benchmarks.specimen_text import specimen_toml
 
 RIGS = [draw_rig(np.random.default_rng(seed)) for seed in range(60)]
 

@@ -6,28 +6,28 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench.campaign import fit_amplitude, shake
-from bench.code_hash import reached
-from bench.dirty import build_dirty
-from bench.dirty_plan import Plan
-from bench.drawn_rigs import DRAWN, draw_rig, possible_on
-from bench.families import FAMILIES, MAKERS, build_family
-from bench.family_dirt import SOILS, Soiled, noisy
-from bench.family_score import accused, missed, right
-from bench.family_store import Order, add_features, is_made, make, orders, read_answers, read_features
-from bench.first_things import LATE_CELLS, LATE_CHANNEL, draw_first
-from bench.gauges import USUAL, Logger, measure
-from bench.hidden import PHYSICS
-from bench.library_effects import UNLISTED, draw_use
-from bench.library_replay import library_model, replayed
-from bench.more_dirt import temperature
-from bench.plan_rigs import STOREYS, draw_plan_rig
-from bench.planted import faults_of, together
-from bench.quakes import draw_record
-from bench.rig_ode import simulate
-from bench.settings import GRAVITY, pad_names, random_rig, rated
-from bench.sliders import KINDS_OF_SLIDER, build_slider
 from slipwise.campaign import load_campaign
+from slipwise_benchmarks.campaign import fit_amplitude, shake
+from slipwise_benchmarks.code_hash import reached
+from slipwise_benchmarks.dirty import build_dirty
+from slipwise_benchmarks.dirty_plan import Plan
+from slipwise_benchmarks.drawn_rigs import DRAWN, draw_rig, possible_on
+from slipwise_benchmarks.families import FAMILIES, MAKERS, build_family
+from slipwise_benchmarks.family_dirt import SOILS, Soiled, noisy
+from slipwise_benchmarks.family_score import accused, missed, right
+from slipwise_benchmarks.family_store import Order, add_features, is_made, make, orders, read_answers, read_features
+from slipwise_benchmarks.first_things import LATE_CELLS, LATE_CHANNEL, draw_first
+from slipwise_benchmarks.gauges import USUAL, Logger, measure
+from slipwise_benchmarks.hidden import PHYSICS
+from slipwise_benchmarks.library_effects import UNLISTED, draw_use
+from slipwise_benchmarks.library_replay import library_model, replayed
+from slipwise_benchmarks.more_dirt import temperature
+from slipwise_benchmarks.plan_rigs import STOREYS, draw_plan_rig
+from slipwise_benchmarks.planted import faults_of, together
+from slipwise_benchmarks.quakes import draw_record
+from slipwise_benchmarks.rig_ode import simulate
+from slipwise_benchmarks.settings import GRAVITY, pad_names, random_rig, rated
+from slipwise_benchmarks.sliders import KINDS_OF_SLIDER, build_slider
 
 PLAN = Plan("nothing", (), (), rich=False, runs=2, short=True, uplift=False)
 RIGS = {family.name: family for family in FAMILIES.values() if family.plan is not None}
@@ -211,10 +211,11 @@ def test_campaigns_depend_on_what_makes_them_and_on_nothing_else():
     def names(modules: tuple[str, ...], packages: tuple[str, ...]) -> set[str]:
         return {f"{path.parent.name}/{path.name}" for path in reached(modules, packages)}
 
-    rigs, sliders = names(("bench.dirty",), ("bench",)), names(("bench.sliders",), ("bench",))
-    assert {"bench/rig_loop.py", "bench/dirt.py", "unlisted/washboard.py"} <= rigs
-    assert "bench/rig_loop.py" not in sliders and "bench/bearing.py" in sliders
-    by_library = names(("bench.dirty",), ("bench", "slipwise"))
+    here = "slipwise_benchmarks"
+    rigs, sliders = names((f"{here}.dirty",), (here,)), names((f"{here}.sliders",), (here,))
+    assert {f"{here}/rig_loop.py", f"{here}/dirt.py", "unlisted/washboard.py"} <= rigs
+    assert f"{here}/rig_loop.py" not in sliders and f"{here}/bearing.py" in sliders
+    by_library = names((f"{here}.dirty", f"{here}.library_replay"), (here, "slipwise"))
     assert {"kernel/step.py", "effects/heating.py", "rig/build.py"} <= by_library
     assert not any(name.startswith(("diagnosis/", "view/", "instruments/")) for name in by_library)
 

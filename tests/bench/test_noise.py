@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.signal import welch
 
-from bench.faults import Fault
-from bench.gauges import USUAL, Logger, measure
-from bench.noise import coloured, converter_step, full_scale, hum, one_over_f, quantised
+from slipwise_benchmarks.faults import Fault
+from slipwise_benchmarks.gauges import USUAL, Logger, measure
+from slipwise_benchmarks.noise import coloured, converter_step, full_scale, hum, one_over_f, quantised
 
 
 def test_white_noise_is_what_the_generator_gives():

@@ -5,11 +5,11 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.special import ellipk
 
-from bench.drawn_rigs import as_built, draw_rig
-from bench.motions import STEP, Motion, draw_quake
-from bench.parts import Buffer, Pad
-from bench.rig_ode import simulate
-from bench.settings import GRAVITY, Settings, buffers_of, pad_names, pads_of, rated
+from slipwise_benchmarks.drawn_rigs import as_built, draw_rig
+from slipwise_benchmarks.motions import STEP, Motion, draw_quake
+from slipwise_benchmarks.parts import Buffer, Pad
+from slipwise_benchmarks.rig_ode import simulate
+from slipwise_benchmarks.settings import GRAVITY, Settings, buffers_of, pad_names, pads_of, rated
 
 
 def strong_part(seed: int, across: bool = False) -> Motion:

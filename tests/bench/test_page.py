@@ -4,10 +4,10 @@ from typing import Any
 
 import pytest
 
-from bench.page import _GROUPS, bench_page, pictures
-from bench.pictures import confusion_figure, hidden_name, said_name
-from bench.score import rates
 from slipwise.view.figures.style import styled
+from slipwise_benchmarks.page import _GROUPS, bench_page, pictures
+from slipwise_benchmarks.pictures import confusion_figure, hidden_name, said_name
+from slipwise_benchmarks.score import rates
 
 
 def _result(name: str, missing: tuple[str, ...], verdict: str, *effects: str, size: float = 5.0) -> dict[str, Any]:

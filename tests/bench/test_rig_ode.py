@@ -6,10 +6,10 @@ Its stick is elastic over `stick_length`: 4 um in most campaigns, 1 um or less h
 import numpy as np
 import pytest
 
-from bench.hidden import PHYSICS, UNKNOWN_KINDS, hide
-from bench.motions import STEP, Motion, at_rest, draw_quake, steady_sine
-from bench.rig_ode import Memory, heat_kernel, simulate
-from bench.settings import GRAVITY, PADS, Settings, random_rig, rated
+from slipwise_benchmarks.hidden import PHYSICS, UNKNOWN_KINDS, hide
+from slipwise_benchmarks.motions import STEP, Motion, at_rest, draw_quake, steady_sine
+from slipwise_benchmarks.rig_ode import Memory, heat_kernel, simulate
+from slipwise_benchmarks.settings import GRAVITY, PADS, Settings, random_rig, rated
 
 FINE = {"step": 1.0e-5, "every": 20}
 

@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
-from bench.score import rates, right
-from bench.sizes import planted, sizes
+from slipwise_benchmarks.score import rates, right
+from slipwise_benchmarks.sizes import planted, sizes
 
 
 def _truth(*missing: str, size: float = 5.0, details: dict[str, Any] | None = None) -> dict[str, Any]:

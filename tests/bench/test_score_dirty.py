@@ -4,7 +4,15 @@ from typing import Any
 
 import pytest
 
-from bench.score_dirty import absent_named, complete_right, first_right, importances, log_loss, rates, right
+from slipwise_benchmarks.score_dirty import (
+    absent_named,
+    complete_right,
+    first_right,
+    importances,
+    log_loss,
+    rates,
+    right,
+)
 
 
 def _truth(first: list[dict[str, Any]] | None = None, **of_limit: float) -> dict[str, Any]:

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bench.law import Law
-from bench.laws import LAWS
-from bench.score_constants import constant_rows, matched
-from bench.score_discover import (
+from slipwise_benchmarks.law import Law
+from slipwise_benchmarks.laws import LAWS
+from slipwise_benchmarks.score_constants import constant_rows, matched
+from slipwise_benchmarks.score_discover import (
     explained,
     form_first,
     form_listed,
@@ -24,7 +24,7 @@ from bench.score_discover import (
     wrong,
     wrongly_claimed,
 )
-from bench.settings import PAD_AREA, rated
+from slipwise_benchmarks.settings import PAD_AREA, rated
 
 STORED = Path(__file__).parent / "stored_discoveries.json"
 

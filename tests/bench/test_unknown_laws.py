@@ -5,19 +5,19 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from bench.answer_key import COARSE, EVERY, Scene, alone
-from bench.gauges import USUAL, Logger
-from bench.law import pads_at, place_of
-from bench.law_campaign import LEAST, make_law_campaign
-from bench.law_force import PORTS
-from bench.law_plan import BESIDE, beside_of, draw_law_plan
-from bench.law_states import HEAT, LAST_PEAK, LAST_STROKE, SINCE, STATES, UNITS, WAY, follow, fresh_memory
-from bench.laws import LAWS
-from bench.motions import Motion
-from bench.planted import LARGEST, Plant
-from bench.quakes import draw_record
-from bench.rig_ode import Memory, simulate
-from bench.settings import GRAVITY, PAD_AREA, PADS, Settings, rated
+from slipwise_benchmarks.answer_key import COARSE, EVERY, Scene, alone
+from slipwise_benchmarks.gauges import USUAL, Logger
+from slipwise_benchmarks.law import pads_at, place_of
+from slipwise_benchmarks.law_campaign import LEAST, make_law_campaign
+from slipwise_benchmarks.law_force import PORTS
+from slipwise_benchmarks.law_plan import BESIDE, beside_of, draw_law_plan
+from slipwise_benchmarks.law_states import HEAT, LAST_PEAK, LAST_STROKE, SINCE, STATES, UNITS, WAY, follow, fresh_memory
+from slipwise_benchmarks.laws import LAWS
+from slipwise_benchmarks.motions import Motion
+from slipwise_benchmarks.planted import LARGEST, Plant
+from slipwise_benchmarks.quakes import draw_record
+from slipwise_benchmarks.rig_ode import Memory, simulate
+from slipwise_benchmarks.settings import GRAVITY, PAD_AREA, PADS, Settings, rated
 
 BASE = rated("bridge1")
 IN_LIBRARY = [name for name, law in LAWS.items() if not law.absent]

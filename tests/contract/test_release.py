@@ -90,8 +90,8 @@ def test_sdist_and_wheel_hold_what_they_should_and_nothing_else(built: tuple[Pat
     with tarfile.open(sdist) as archive:
         inside = {name.split("/")[1] for name in archive.getnames() if "/" in name}
     assert inside == {
-        "src", "models", "tests", "scripts", "docs", "README.md", "CONTRIBUTING.md", "LICENSE", "CITATION.cff",
-        "pyproject.toml", "PKG-INFO", ".gitignore",
+        "src", "models", "tests", "scripts", "benchmarks", "docs", "README.md", "CONTRIBUTING.md", "LICENSE",
+        "CITATION.cff", "pyproject.toml", "PKG-INFO", ".gitignore",
     }  # fmt: skip
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import simulate as second
-from bench.motions import draw_quake
-from bench.parts import Buffer, Pad
-from bench.settings import Settings
 from slipwise.model import base_model
 from slipwise.rig import Specimen
 from slipwise.simulation.simulator import simulate
+from slipwise_benchmarks import simulate as second
+from slipwise_benchmarks.motions import draw_quake
+from slipwise_benchmarks.parts import Buffer, Pad
+from slipwise_benchmarks.settings import Settings
 
 DT = 5e-4
 

@@ -2,10 +2,10 @@
 
 import pytest
 
-from bench import GROUPS, Fault, build_campaign, with_faults
-from measured import as_campaign
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.instruments.audit import audit
+from slipwise_benchmarks import GROUPS, Fault, build_campaign, with_faults
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.mark.long

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign
 from slipwise.campaign import Campaign
 from slipwise.diagnosis.diagnose import diagnose
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 def with_noise_held_out(campaign: Campaign) -> Campaign:

@@ -4,12 +4,13 @@ from dataclasses import replace
 
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign, fit_base
+from measured import fit_base
 from slipwise.campaign import Campaign, Logger
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.errors import InputError
 from slipwise.record import Record
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 pytestmark = pytest.mark.long
 

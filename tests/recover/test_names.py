@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench import make_campaign
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.ladder import ladder
+from slipwise_benchmarks import make_campaign
 
 pytestmark = pytest.mark.slow
 

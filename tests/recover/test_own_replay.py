@@ -13,11 +13,10 @@ pytestmark = pytest.mark.slow
 @pytest.mark.parametrize(
     ("rig", "corner", "rate"),
     [
-        ("three_pads", 100.0, 500.0),
         ("six_pads", 100.0, 500.0),
         ("three_pads", None, 2000.0),
         ("pendulum", 40.0, 100.0),
-        *(pytest.param(rig, 100.0, 500.0, marks=pytest.mark.long) for rig in ("pendulum", "building")),
+        *(pytest.param(rig, 100.0, 500.0, marks=pytest.mark.long) for rig in ("three_pads", "pendulum", "building")),
         *(pytest.param(rig, None, 500.0, marks=pytest.mark.long) for rig in ("bridge1", "three_pads", "pendulum")),
     ],
 )
@@ -32,7 +31,7 @@ def test_a_rigs_own_replay_lacks_nothing(tmp_path: Path, rig: str, corner: float
         assert found.base_error < 1.5, found.relations
 
 
-@pytest.mark.parametrize("rig", ["bridge1", "building"])
+@pytest.mark.parametrize("rig", ["bridge1", pytest.param("building", marks=pytest.mark.long)])
 def test_a_simulation_without_noise_lacks_nothing(tmp_path: Path, rig: str) -> None:
     found = sw.diagnose(campaign_of(tmp_path / "own", rig, None, runs=2, noisy=False))
     assert found.verdict.kind == "complete", found.sentence

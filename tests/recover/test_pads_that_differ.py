@@ -21,6 +21,7 @@ def test_six_pads_of_unlike_friction_are_told_one_by_one(tmp_path: Path) -> None
         assert found.candidates[0].parameters[f"pad_spread.level[{pad}]"].value == pytest.approx(level, abs=0.003)
 
 
+@pytest.mark.long
 def test_a_patch_under_one_of_six_pads_is_found_there(tmp_path: Path) -> None:
     patch = use("position_patch", pad_a=0.0, place=0.006, width=0.005, **{"rise[E]": 0.25})
     model = base_model("six_pads").adding(patch)

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.model import Model
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 pytestmark = pytest.mark.slow
 

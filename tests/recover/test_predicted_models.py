@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from bench.campaign import draw_motions
-from bench.gauges import USUAL, Logger, measure
-from bench.motions import NATURAL
-from bench.rig_ode import simulate
-from bench.settings import GRAVITY, PAD_AREA, random_rig
-from bench.write import write_campaign, write_csv
 from slipwise.campaign import load_campaign
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.prediction.judge import judge_prediction
+from slipwise_benchmarks.campaign import draw_motions
+from slipwise_benchmarks.gauges import USUAL, Logger, measure
+from slipwise_benchmarks.motions import NATURAL
+from slipwise_benchmarks.rig_ode import simulate
+from slipwise_benchmarks.settings import GRAVITY, PAD_AREA, random_rig
+from slipwise_benchmarks.write import write_campaign, write_csv
 
 ROLES = (("sine_hv", "fit"), ("quake_hv", "fit"), ("quake2_hv", "holdout"))
 WRITTEN = ("time", *(name for name in USUAL if not name.startswith("table")))

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from scipy.signal import resample_poly
 
-from bench import build_campaign
-from measured import as_campaign
 from slipwise.campaign import Campaign, Run
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.record import Record
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.fixture(scope="module")

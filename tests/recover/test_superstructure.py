@@ -11,7 +11,9 @@ from slipwise.model import base_model, use
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.parametrize(("stiffness", "damping", "corner"), [(0.85, 0.01, 100.0), (1.3, 0.0, None)])
+@pytest.mark.parametrize(
+    ("stiffness", "damping", "corner"), [(0.85, 0.01, 100.0), pytest.param(1.3, 0.0, None, marks=pytest.mark.long)]
+)
 def test_a_frame_that_is_not_as_stated_is_named(
     tmp_path: Path, stiffness: float, damping: float, corner: float | None
 ) -> None:

@@ -15,7 +15,10 @@ from unit.campaign.slider import HEADER, RUNS
 pytestmark = pytest.mark.slow
 
 #: Times, lengths and forces over those of the first campaign.
-SYSTEMS = [(1e3, 1.0, 1e3), (1.0, 1e-3, 1.0), (1e-3, 1e2, 0.1)]
+SYSTEMS = [
+    (1e3, 1.0, 1e3),
+    *(pytest.param(*system, marks=pytest.mark.long) for system in [(1.0, 1e-3, 1.0), (1e-3, 1e2, 0.1)]),
+]
 
 
 def damped_bristle(seed: int, frequency: float) -> np.ndarray:

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from bench.write import write_campaign
-from measured import as_campaign
 from slipwise.campaign import Campaign, load_campaign, measured_states
 from slipwise.campaign.same_specimen import check_same_specimen
 from slipwise.errors import InputError, SlipwiseWarning
 from slipwise.record import Record
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
+from slipwise_benchmarks.write import write_campaign
 from unit.campaign.slider import HEADER, slider, text
 
 

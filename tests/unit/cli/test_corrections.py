@@ -5,9 +5,9 @@ import shutil
 
 import pytest
 
-from bench import Fault, build_campaign, with_faults
-from bench.write import write_campaign
 from slipwise.effects import find_effect
+from slipwise_benchmarks import Fault, build_campaign, with_faults
+from slipwise_benchmarks.write import write_campaign
 
 
 @pytest.fixture(scope="module")

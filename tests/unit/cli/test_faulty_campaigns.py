@@ -125,6 +125,7 @@ def test_the_audit_names_each_fault_once_and_correcting_it_leaves_none(slipwise,
     assert code == 0 and "no gauge is accused" in out
 
 
+@pytest.mark.slow
 def test_loads_that_count_compression_negative_are_mended_and_told_as_those_whose_sign_is_stated(slipwise, folder):
     here = folder("19_all_loads_compression_negative")
     plain = ("compare", ".", "--no-recording", "--no-system", "--out", here.parent / "out", "--json")

@@ -50,11 +50,14 @@ def test_the_flags_that_the_refusal_names_let_it_run(slipwise, folder, tmp_path)
     plain = ("compare", folder, "--no-system", "--no-recording", "--out", tmp_path / "out")
     _, _, err = slipwise(*plain)
     named = re.search(r"--effect '(.+?)'", err)
-    assert named
-    for flags in (("--trust",), ("--effect", named[1])):
-        code, _, _ = slipwise(*plain, *flags)
-        assert code == 0 and (folder / "CODE_RAN").exists(), flags
-        (folder / "CODE_RAN").unlink()
+    assert named and "--trust" in err
+    code, _, _ = slipwise(*plain, "--effect", named[1])
+    assert code == 0 and (folder / "CODE_RAN").exists()
+    (folder / "CODE_RAN").unlink()
+    with (folder / "model.toml").open("a") as stream:  # ends the command once the file before it has run
+        stream.write('[[effect]]\nname = "no_such_effect"\n')
+    code, _, err = slipwise(*plain, "--trust")
+    assert code == 2 and "no_such_effect" in err and (folder / "CODE_RAN").exists()
 
 
 def test_what_lies_in_a_pycache_beside_an_effect_file_is_not_run(folder):

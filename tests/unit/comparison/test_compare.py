@@ -7,13 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign, make_campaign
-from bench.write import write_campaign
-from measured import as_campaign, fit_base
+from measured import fit_base
 from slipwise.comparison.compare import compare
 from slipwise.comparison.component_level import compute_component_errors, pool_errors
 from slipwise.comparison.tables import as_json
 from slipwise.errors import InputError, UnknownNameError
+from slipwise_benchmarks import build_campaign, make_campaign
+from slipwise_benchmarks.in_memory import as_campaign
+from slipwise_benchmarks.write import write_campaign
 
 
 @pytest.fixture(scope="module")

@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign, fit_base
+from measured import fit_base
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.diagnosis.identifiability import list_unidentified, separate_each
 from slipwise.diagnosis.limitations import list_limitations
@@ -21,6 +20,8 @@ from slipwise.selection.candidates import list_candidates
 from slipwise.selection.explained_alone import ExplainedAlone
 from slipwise.selection.hypothesis import make_base_hypothesis
 from slipwise.selection.search_state import Search
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 FADES_AND_LASTS = [Term(catalogue()[name]) for name in ("heating", "run_in")]
 RESTS = "heating"

@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign, fit_base
+from measured import fit_base
 from slipwise.diagnosis.reported_sizes import list_named_sizes
 from slipwise.effects import catalogue
 from slipwise.estimation.base_fit import BaseFit
@@ -14,6 +13,8 @@ from slipwise.estimation.intervals import compute_intervals
 from slipwise.relations.parameters import Term
 from slipwise.selection.hypothesis import Hypothesis, polish, refit
 from slipwise.selection.hypothesis_fit import make_fit
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.fixture(scope="module")

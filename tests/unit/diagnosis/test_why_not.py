@@ -5,7 +5,6 @@ from pathlib import Path
 
 import pytest
 
-from bench.bearing import make_bearing
 from hypotheses import base, diagnosed, findings_of, left_by, searched
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.result import Diagnosis
@@ -15,6 +14,7 @@ from slipwise.view.figures.style import styled
 from slipwise.view.figures.why_not_figure import why_not_figure
 from slipwise.view.pages.diagnosis_page import diagnosis_page
 from slipwise.view.words.why_not_words import why_not_words
+from slipwise_benchmarks.bearing import make_bearing
 
 
 @pytest.fixture(scope="module")

@@ -6,8 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign, fit_base
+from measured import fit_base
 from slipwise.campaign import Campaign, Logger, Run, measured_states
 from slipwise.comparison.isolation_layer import describe_isolation_layer
 from slipwise.errors import InputError
@@ -21,6 +20,8 @@ from slipwise.rig import Specimen, load_specimen
 from slipwise.rig.places import Buffer
 from slipwise.selection.candidates import NOTHING_SLIDES, list_candidates
 from slipwise.simulation.replay import replay
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 RNG = np.random.default_rng(5)
 NOISE = {"slip_x": 2e-5}

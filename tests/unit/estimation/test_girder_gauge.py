@@ -5,11 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from bench.campaign import Campaign as Made
-from bench.campaign import with_faults
-from bench.faults import Fault
-from measured import as_campaign, fit_base
+from measured import fit_base
 from slipwise.effects import catalogue
 from slipwise.evidence.residual_summary import summarise_residuals
 from slipwise.model import base_model
@@ -17,6 +13,11 @@ from slipwise.relations.noise import compute_heave_level
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import fit_runs
 from slipwise.selection.hypothesis import polish, refit, refit_for_report
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.campaign import Campaign as Made
+from slipwise_benchmarks.campaign import with_faults
+from slipwise_benchmarks.faults import Fault
+from slipwise_benchmarks.in_memory import as_campaign
 
 CUTOFF = 12.0
 

@@ -5,8 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign
 from slipwise.model import base_model, use
 from slipwise.relations.girder import compute_heave_rate
 from slipwise.relations.noise import (
@@ -17,6 +15,8 @@ from slipwise.relations.noise import (
 )
 from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.signals.oscillator import oscillator
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.fixture(scope="module")

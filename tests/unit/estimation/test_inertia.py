@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign, fit_base
+from measured import fit_base
 from slipwise.campaign import Logger
 from slipwise.effects import catalogue
 from slipwise.evidence.residual_summary import summarise_residuals
@@ -18,6 +17,8 @@ from slipwise.selection.hypothesis import polish, refit, refit_for_report
 from slipwise.signals.filters import LowPass
 from slipwise.signals.oscillator import oscillator
 from slipwise.signals.pitch import pass_through_pitch
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.mark.slow

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign
 from slipwise.relations.run_data import fit_runs
 from slipwise.signals.shift import shift
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 #: As far as cards of one logger may stand apart [s].
 LATE = 1e-4

@@ -2,13 +2,13 @@
 
 import pytest
 
-from bench import build_campaign
-from bench.campaign import with_faults
-from bench.faults import Fault
-from measured import as_campaign
 from slipwise.evidence.residual_summary import summarise_residuals
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import fit_prepared
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.campaign import with_faults
+from slipwise_benchmarks.faults import Fault
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.mark.slow

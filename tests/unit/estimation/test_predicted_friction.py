@@ -4,10 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign, fit_base
+from measured import fit_base
 from slipwise.campaign import load_campaign
 from slipwise.estimation.prediction_interval import PredictedFriction, predict_friction
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 from unit.campaign.slider import write_at_loads
 
 LOADS = {"one": 5.0, "two": 10.0, "three": 20.0, "between": 15.0}  # kN

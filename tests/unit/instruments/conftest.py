@@ -2,11 +2,11 @@
 
 import pytest
 
-from bench import Fault, build_campaign, with_faults
-from measured import as_campaign
 from slipwise.campaign import Campaign
 from slipwise.instruments.audit import audit
 from slipwise.instruments.report import AuditReport
+from slipwise_benchmarks import Fault, build_campaign, with_faults
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.fixture(scope="package")

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from bench import GROUPS, Fault
 from slipwise.errors import InputError, UnknownNameError
 from slipwise.instruments.audit import audit
 from slipwise.instruments.corrections import correct
+from slipwise_benchmarks import GROUPS, Fault
 
 
 def test_an_audit_changes_no_data(late_slip):

@@ -1,7 +1,7 @@
 """A gauge that breaks in the last run is seen in that run by itself, where an audit of all runs sees a part of it."""
 
-from bench import Fault
 from slipwise.monitoring.gauges import find_faults_of_runs
+from slipwise_benchmarks import Fault
 
 
 def test_a_cell_that_reads_too_much_in_the_last_run_alone_is_accused_there(measured_with):

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import Fault
 from slipwise.campaign import Campaign
 from slipwise.instruments.audit import audit
 from slipwise.preparation.outliers import bridge_outliers
@@ -13,6 +12,7 @@ from slipwise.preparation.signs import find_wrong_signs
 from slipwise.preparation.synchronisation import find_late_cells
 from slipwise.signals.shift import shift
 from slipwise.signals.short_bursts import short_bursts
+from slipwise_benchmarks import Fault
 
 CHANNELS = ("slip_x", "girder_ax", "table_ax", "pad_A_Fx", "pad_A_N")
 

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import GROUPS, Fault
 from shaking import needs_shared
 from slipwise.campaign import Campaign, Logger, load_campaign
 from slipwise.instruments.audit import audit
 from slipwise.preparation.logger import estimate_logger
+from slipwise_benchmarks import GROUPS, Fault
 
 CELLS = GROUPS["forces"] + GROUPS["loads"]
 

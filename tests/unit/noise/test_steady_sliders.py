@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from bench import make_bearing
-from bench.bearing import KINDS, draw_bearing
 from slipwise.campaign import load_campaign
 from slipwise.noise.gauges import measure_gauge_noise, measure_steady_level
 from slipwise.record import Record
+from slipwise_benchmarks import make_bearing
+from slipwise_benchmarks.bearing import KINDS, draw_bearing
 
 #: Seeds of campaigns that were logged at 20 to 200 Hz: reversals, walls and half a stroke lie within a few samples.
 COARSE = (53011, 54301, 54309)

@@ -2,9 +2,9 @@
 
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign
 from slipwise.campaign import Campaign
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.fixture(scope="package")

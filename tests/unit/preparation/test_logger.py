@@ -5,11 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign, fit_base
+from measured import fit_base
 from slipwise.campaign import Campaign, Logger
 from slipwise.preparation.logger import estimate_logger
 from slipwise.signals.filters import LowPass, lowpass
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 def smooth(slip: np.ndarray, dt: float) -> np.ndarray:

@@ -6,8 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign
 from slipwise.campaign import Campaign, Run
 from slipwise.comparison.compare import compare
 from slipwise.diagnosis.diagnose import diagnose
@@ -21,6 +19,8 @@ from slipwise.rig import load_specimen
 from slipwise.selection import select
 from slipwise.selection.candidates import list_candidates
 from slipwise.session.session import Session
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 PADS = "ABCD"
 LOADS = tuple(f"pad_{pad}_N" for pad in PADS)
@@ -71,7 +71,9 @@ def heating_alone(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", FAULTS)
+@pytest.mark.parametrize(
+    "kind", [pytest.param(kind, marks=pytest.mark.long if kind in ("reversed", "dead") else ()) for kind in FAULTS]
+)
 def test_every_command_mends_a_fault_says_so_and_tells_the_same_error(sound, heating_alone, kind):
     faulty = FAULTS[kind](sound)
     compared, found = compare(faulty, system=False), diagnose(faulty)

@@ -5,12 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign, mended_for_fits
+from measured import mended_for_fits
 from slipwise.campaign import Campaign
 from slipwise.preparation.data_corrections import describe_corrections
 from slipwise.preparation.sample_faults import find_sample_faults
 from slipwise.preparation.synchronisation import find_late_cells, find_late_motion, synchronise, without_partner
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 CELLS = tuple(f"pad_{pad}_{kind}" for pad in "ABCD" for kind in ("N", "Fx"))
 

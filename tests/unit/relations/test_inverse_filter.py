@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from scipy.signal import welch
 
-from bench import build_campaign
-from measured import as_campaign
 from slipwise.effects import catalogue
 from slipwise.relations.girder import compute_motion_residual
 from slipwise.relations.inverse_filter import whiten_again
 from slipwise.relations.measurement import compute_raised_noise, without
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import fit_runs
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 LAG = 5e-3
 

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign
 from slipwise.effects import catalogue
 from slipwise.relations.measurement import compute_noise_scale, without
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import fit_runs
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.fixture(scope="module")

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign
 from slipwise.effects import catalogue
 from slipwise.model import base_model
 from slipwise.relations.measurement import compute_change_by_faults
 from slipwise.relations.noise import compute_noise_of_correction, compute_reversal_noise
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import FitRun, fit_runs
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.fixture(scope="module")

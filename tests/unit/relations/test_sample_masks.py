@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign, mended_for_fits
+from measured import mended_for_fits
 from slipwise.estimation.objective import make_objective
 from slipwise.preparation.sample_faults import find_sample_faults
 from slipwise.relations.kinematics import YAW
@@ -18,6 +17,8 @@ from slipwise.relations.sample_masks import (
     mask_ringing_after_uplift,
 )
 from slipwise.rig import load_specimen, pad_frequencies
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 COUNT = 6
 ALL = np.ones(COUNT, dtype=bool)

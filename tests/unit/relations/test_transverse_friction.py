@@ -5,14 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign, fit_base
+from measured import fit_base
 from slipwise.comparison.component_level import compute_component_errors
 from slipwise.effects import catalogue
 from slipwise.estimation.objective import make_objective
 from slipwise.record import Record
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import fit_runs
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.fixture(scope="module")

@@ -6,13 +6,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign, fit_base
+from measured import fit_base
 from slipwise.effects import catalogue, load_effect
 from slipwise.model import base_model, use
 from slipwise.relations.kinematics import YAW
 from slipwise.relations.parameters import YAW_INERTIA, Term
 from slipwise.selection.hypothesis import refit
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.mark.slow

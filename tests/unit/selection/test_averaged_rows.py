@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign, fit_base
+from measured import fit_base
 from slipwise.arrays import Array
 from slipwise.selection.averaged_rows import BAND, AveragedRows, make_averaged_rows
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.fixture(scope="module")

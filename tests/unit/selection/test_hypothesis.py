@@ -4,12 +4,13 @@ from dataclasses import replace
 
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign, fit_base
+from measured import fit_base
 from slipwise.effects import catalogue
 from slipwise.model import base_model, use
 from slipwise.relations.parameters import Term, list_base_numbers
 from slipwise.selection.hypothesis import make_base_hypothesis, refit
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.fixture(scope="module")

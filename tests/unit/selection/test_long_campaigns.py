@@ -5,13 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign, fit_base
+from measured import fit_base
 from slipwise.diagnosis.full_length_errors import compute_full_length_errors
 from slipwise.record import Record
 from slipwise.selection import jacobian_memory as kept_slopes
 from slipwise.selection.hypothesis import make_base_hypothesis
 from slipwise.session.evaluation import errors_of
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.fixture(scope="module")

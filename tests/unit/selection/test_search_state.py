@@ -2,13 +2,14 @@
 
 import pytest
 
-from bench import build_campaign
 from hypotheses import base, left_by, searched
-from measured import as_campaign, fit_base
+from measured import fit_base
 from slipwise.selection import search_state as module
 from slipwise.selection.candidates import list_candidates
 from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis
 from slipwise.selection.search_state import Search, left_with, try_all
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 
 def test_what_was_fitted_before_is_not_fitted_again_and_the_state_stays_as_it_is() -> None:

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from bench import build_campaign
-from measured import as_campaign
 from slipwise.campaign import measured_states
 from slipwise.errors import InputError
 from slipwise.signals.fused import fuse, fuse_scaled
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 
 #: Root of the mean square of the error that is allowed [m/s].
 ALLOWED = 3e-4
