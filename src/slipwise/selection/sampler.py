@@ -1,6 +1,6 @@
 """The sampler of a posterior over which candidate takes which place, compiled; see `selection.posterior`."""
 
-from math import erf
+from math import erf, log
 
 import numpy as np
 
@@ -8,8 +8,11 @@ from slipwise.jobs.machine_code import kept
 
 
 @kept()
-def _normal_cdf(x):
-    return max(0.5 * (1.0 + erf(x * 0.7071067811865476)), 1e-12)
+def _log_normal_cdf(x):
+    """Return the logarithm of the chance to lie below; what lies far on the wrong side must cost all that it gains."""
+    if x > -6.0:
+        return log(0.5 * (1.0 + erf(x * 0.7071067811865476)))
+    return -0.5 * x * x - log(-x) - 0.9189385332046727
 
 
 @kept()
@@ -105,7 +108,7 @@ def sample_places(A, b, columns, length, owner, excludes, odds, widths, odds_of,
                         S = max(a[0, 0], 0.0) + precision
                         value = 0.5 * h[0] * h[0] / S + 0.5 * np.log(precision / S)
                         if one_sided[columns[c, 0]]:
-                            value += np.log(2.0 * _normal_cdf(h[0] / np.sqrt(S)))
+                            value += log(2.0) + _log_normal_cdf(h[0] / np.sqrt(S))
                     else:
                         Q = a[:m, :m].copy()
                         for i in range(m):
@@ -147,7 +150,7 @@ def sample_places(A, b, columns, length, owner, excludes, odds, widths, odds_of,
                     mean += M[i, j] * b[act[j]]
                 prior += 0.5 * mean * b[act[i]] + 0.5 * np.log(d[i])
                 if one_sided[act[i]]:
-                    prior += np.log(2.0 * _normal_cdf(mean / np.sqrt(max(M[i, i], 1e-300))))
+                    prior += log(2.0) + _log_normal_cdf(mean / np.sqrt(max(M[i, i], 1e-300)))
         forms[sweep] = taken
         of_width[sweep] = width
         worth[sweep] = prior
