@@ -1,0 +1,103 @@
+"""One law over several specimens in sentences and tables."""
+
+from typing import Any
+
+from slipwise.specimens.result import OWN, SHARED, JointEffect, NumberOverSpecimens, SpecimensReport
+from slipwise.units import convert
+from slipwise.view.words.campaign_tables import shown_unit
+
+#: Base numbers that tell of gauges and pads' timing, and not of the law that a user would carry on.
+_NOT_OF_THE_LAW = ("rig.late_", "rig.pitch_", "rig.stick_")
+#: So unlikely differences between specimens that are alike are told as a spread [1].
+_DIFFER = 0.05
+
+
+def effect_sentences(found: SpecimensReport) -> list[str]:
+    """Say of each effect what all campaigns say of it together, and what each says alone."""
+    return [_shared_words(found, e) if e.of == SHARED else _own_words(e) for e in found.effects]
+
+
+def _shared_words(found: SpecimensReport, of: JointEffect) -> str:
+    count = len(found.names)
+    alone = ", ".join(f"{100.0 * of.alone[name]:.0f} %" for name in found.names)
+    if not of.named:
+        by = f"no campaign names it alone (there by each alone: {alone})"
+    elif len(of.named) == count:
+        by = "each campaign names it"
+    else:
+        by = f"{', '.join(of.named)} {'name' if len(of.named) > 1 else 'names'} it alone (there by each alone: {alone})"
+    words = (
+        f"{of.effect} is in all {count} specimens ({_percent(of.probability)}), at {of.size:.2g} of what matters; {by}"
+    )
+    spread = [n for n in of.sizes if n.over is not None and n.over.differ < _DIFFER]
+    if spread:
+        words += f"; its size differs from specimen to specimen: {'; '.join(map(_spread_words, spread))}"
+    if of.faint:
+        words += (
+            f"; it shows {of.floors:.2g} noise floors in all campaigns together, which an error that every campaign "
+            "repeats could do as well"
+        )
+    return f"{words}."
+
+
+def _own_words(of: JointEffect) -> str:
+    chance = _percent(of.probability)
+    words = f"{of.effect} is a property of {of.specimen} ({chance}), at {of.size:.2g} of what matters there"
+    others = [
+        f"{name} {_number(n, n.values[name])} +- {_number(n, 1.96 * n.errors[name])}"
+        for n in of.sizes
+        for name in n.values
+        if name != of.specimen
+    ]
+    words += f"; the others: {'; '.join(others)} ({_shown(of.sizes[0])})" if others else ""
+    return f"{words}{'; it is faint' if of.faint else ''}."
+
+
+def not_compared_words(found: SpecimensReport) -> list[str]:
+    """Say which effects were not compared between rigs."""
+    if not found.not_compared:
+        return []
+    names = [f"{name} [{', '.join(units)}]" for name, units in found.not_compared.items()]
+    return [f"not compared, for a size of it belongs to the rig on which it was measured: {', '.join(names)}"]
+
+
+def effect_rows(found: SpecimensReport) -> list[dict[str, Any]]:
+    """Return one row for every strength of an effect."""
+    rows = []
+    for e in found.effects:
+        for n in e.sizes or (None,):
+            row: dict[str, Any] = {"effect": e.effect, "of": "all" if e.of != OWN else e.specimen}
+            row |= {"probability": _percent(e.probability), "of what matters": f"{e.size:.2g}"}
+            rows.append(row | ({} if n is None else _over(n)))
+    return rows
+
+
+def number_rows(found: SpecimensReport) -> list[dict[str, Any]]:
+    """Return one row for every base number of the law."""
+    return [_over(n) for n in found.numbers if not n.key.startswith(_NOT_OF_THE_LAW)]
+
+
+def _over(n: NumberOverSpecimens) -> dict[str, Any]:
+    row: dict[str, Any] = {"number": f"{n.key} [{_shown(n)}]"}
+    if n.over is not None:
+        o = n.over
+        row |= {"mean": f"{_number(n, o.mean)} ({_number(n, o.low)} to {_number(n, o.high)})"}
+        row |= {"spread": f"{_number(n, o.spread)} ({_number(n, o.spread_low)} to {_number(n, o.spread_high)})"}
+    return row | {name: _number(n, value) for name, value in n.values.items()}
+
+
+def _spread_words(n: NumberOverSpecimens) -> str:
+    each = ", ".join(f"{name} {_number(n, value)}" for name, value in n.values.items())
+    return f"{n.key} {each} ({_shown(n)})"
+
+
+def _shown(n: NumberOverSpecimens) -> str:
+    return shown_unit(n.key, n.unit)
+
+
+def _number(n: NumberOverSpecimens, value: float) -> str:
+    return f"{convert(value, n.unit, _shown(n)):.4g}"
+
+
+def _percent(probability: float) -> str:
+    return f"{100.0 * min(probability, 0.99):.0f} %"
