@@ -125,7 +125,7 @@ def diagnose_many(
     outcomes = run_campaigns(campaigns, folder, wanted, workers, cluster)
     compared = sw.campaigns.compare_outcomes(outcomes)
     together, reason = judge_together(outcomes, folder)
-    files = write_together(outcomes, compared, together, reason, folder)
+    files = write_together(outcomes, compared, folder, together, reason)
     if json:
         print_json(summary_json(outcomes, compared, together))
     else:
@@ -175,9 +175,9 @@ def _tell_together(together: "sw.specimens.SpecimensReport | None", reason: str)
 def write_together(
     outcomes: "Sequence[sw.campaigns.Outcome]",
     compared: "sw.campaigns.Compared",
-    together: "sw.specimens.SpecimensReport | None",
-    reason: str,
     folder: Path,
+    together: "sw.specimens.SpecimensReport | None" = None,
+    reason: str = "",
 ) -> list[Path]:
     """Write what leads to the results of all campaigns, their numbers side by side, and the law over all."""
     from slipwise.view.files import save_json, save_page, save_rows

@@ -10,7 +10,6 @@ from slipwise.diagnosis.result import Diagnosis
 from slipwise.errors import InputError
 from slipwise.evidence.decision import EVEN_ODDS
 from slipwise.jobs.parallel import one_thread_algebra
-from slipwise.selection.proposals import LIKELY_FLOORS
 from slipwise.specimens.random_effects import combine
 from slipwise.specimens.result import OWN, SHARED, JointEffect, NumberOverSpecimens, SpecimensReport
 from slipwise.specimens.shared_columns import SharedColumns, list_shared_columns
@@ -21,6 +20,8 @@ from slipwise.specimens.specimen import Specimen, is_of_model, make_specimen
 _OF_THE_FACES = ("1", "Pa", "1/Pa", "s/m", "m/s")
 #: A size is known no better than to this share of a limit: below it is round-off [limits].
 _EXACT = 1e-3
+#: What shows less than this in a campaign may be an error that every campaign repeats [noise floors].
+_FAINT = 0.3
 
 
 @one_thread_algebra()
@@ -111,14 +112,13 @@ def _effect(
 ) -> JointEffect:  # fmt: skip
     """Make the entry of an effect that all specimens have, or one of them in one of its columns."""
     of = next(iter({c.effect for s in specimens for c in s.columns if c.label == label}))
-    squares = 0.0
-    for s, part in zip(specimens, law.shared.parts, strict=True):
-        if one:
-            squares += (size * s.columns[own].floors) ** 2 if s.name == one else 0.0
-            continue
-        shown = [float(np.abs(part[:, k]) @ [c.floors for c in s.columns]) for k in best]
-        squares += (size * max(shown)) ** 2
-    floors = float(np.sqrt(squares))
+    if one:
+        shown = [s.columns[own].floors for s in specimens if s.name == one]
+    else:
+        parts = zip(specimens, law.shared.parts, strict=True)
+        every = [max(float(np.abs(part[:, k]) @ [c.floors for c in s.columns]) for k in best) for s, part in parts]
+        shown = [x for x in every if x > 0.0]
+    floors = size * float(np.sqrt(np.mean(np.square(shown))))
     return JointEffect(
         effect=label,
         of=OWN if one else SHARED,
@@ -126,7 +126,7 @@ def _effect(
         probability=probability,
         size=size,
         floors=floors,
-        faint=floors < LIKELY_FLOORS,
+        faint=floors < _FAINT,
         alone={s.name: float(s.chance.get(label, 0.0)) for s in specimens},
         named=tuple(s.name for s in specimens if of in s.named),
         sizes=tuple(_sizes(specimens, law, best)),

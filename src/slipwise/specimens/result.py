@@ -64,8 +64,8 @@ class JointEffect:
         specimen: that one; "" for an effect of all.
         probability: that it is there so [1].
         size: mean where it is there [limits of materiality].
-        floors: what a fit of the base leaves of it in all campaigns together [noise].
-        faint: whether that is so little that small errors which every campaign repeats could be all of it.
+        floors: what a fit of the base leaves of it in a campaign, root mean square of those that show it [noise].
+        faint: whether that is so little that a small error which every campaign repeats could be all of it.
         alone: specimen -> chance that it is there, by its campaign alone; 0 where that does not know it.
         named: specimens whose own verdict names it.
         sizes: of its strengths.

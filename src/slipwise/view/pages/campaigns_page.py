@@ -47,7 +47,7 @@ def campaigns_page(
                 details(f"All {len(every)} numbers that two campaigns have", [bullets(every)]),
             ],
         ),
-        Section("One law over all specimens", _together(together, reason)),
+        *([Section("One law over all specimens", _together(together, reason))] if together or reason else []),
         Section("Base parameters", [_base(outcome) for outcome in outcomes if not outcome.failed]),
     ]
     return page(f"Diagnosis of {len(outcomes)} campaigns", sections)
@@ -55,7 +55,7 @@ def campaigns_page(
 
 def _together(found: SpecimensReport | None, reason: str) -> list[Html]:
     if found is None:
-        return [paragraph(f"None: {reason}." if reason else _NOTHING)]
+        return [paragraph(f"None: {reason}.")]
     sentences = [*effect_sentences(found), *not_compared_words(found)]
     parts = [paragraph(found.sentence), *([bullets(sentences)] if sentences else [])]
     if rows := effect_rows(found):

@@ -34,8 +34,8 @@ def _shared_words(found: SpecimensReport, of: JointEffect) -> str:
         words += f"; its size differs from specimen to specimen: {'; '.join(map(_spread_words, spread))}"
     if of.faint:
         words += (
-            f"; it shows {of.floors:.2g} noise floors in all campaigns together, which an error that every campaign "
-            "repeats could do as well"
+            f"; it shows no more than {of.floors:.2g} noise floors in a campaign, and a small error of the model that "
+            "every campaign repeats could do that as well"
         )
     return f"{words}."
 
