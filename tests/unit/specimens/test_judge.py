@@ -56,7 +56,7 @@ def test_what_one_specimen_has_and_the_others_contradict_is_a_property_of_that_o
     assert own[0].probability > 0.9
     values = own[0].sizes[0].values
     assert values["c"] > 10.0 * max(abs(values[name]) for name in "abd")
-    assert any(words.startswith("run_in is a property of c") for words in effect_sentences(found))
+    assert any(words.startswith("run_in is a property of c (") for words in effect_sentences(found))
 
 
 def test_specimens_without_effects_share_none_and_their_numbers_agree() -> None:

@@ -10,11 +10,13 @@ from slipwise.view.words.campaign_tables import shown_unit
 _NOT_OF_THE_LAW = ("rig.late_", "rig.pitch_", "rig.stick_")
 #: So unlikely differences between specimens that are alike are told as a spread [1].
 _DIFFER = 0.05
+#: Columns of the table of effects, in order; those of the specimens follow.
+_FIRST = ("effect", "of", "probability", "of what matters", "number", "mean", "spread")
 
 
 def effect_sentences(found: SpecimensReport) -> list[str]:
     """Say of each effect what all campaigns say of it together, and what each says alone."""
-    return [_shared_words(found, e) if e.of == SHARED else _own_words(e) for e in found.effects]
+    return [_shared_words(found, e) if e.of == SHARED else _own_words(found, e) for e in found.effects]
 
 
 def _shared_words(found: SpecimensReport, of: JointEffect) -> str:
@@ -40,16 +42,19 @@ def _shared_words(found: SpecimensReport, of: JointEffect) -> str:
     return f"{words}."
 
 
-def _own_words(of: JointEffect) -> str:
-    chance = _percent(of.probability)
-    words = f"{of.effect} is a property of {of.specimen} ({chance}), at {of.size:.2g} of what matters there"
+def _own_words(found: SpecimensReport, of: JointEffect) -> str:
+    chance, name = _percent(of.probability), of.specimen
+    if any(e.effect == of.effect and e.of == SHARED for e in found.effects):
+        words = f"{name} differs from the others in {of.effect} ({chance}), by {of.size:.2g} of what matters there"
+    else:
+        words = f"{of.effect} is a property of {name} ({chance}), at {of.size:.2g} of what matters there"
     others = [
-        f"{name} {_number(n, n.values[name])} +- {_number(n, 1.96 * n.errors[name])}"
+        f"{other} {_number(n, n.values[other])} (standard error {_number(n, n.errors[other])})"
         for n in of.sizes
-        for name in n.values
-        if name != of.specimen
+        for other in n.values
+        if other != name
     ]
-    words += f"; the others: {'; '.join(others)} ({_shown(of.sizes[0])})" if others else ""
+    words += f"; {of.sizes[0].key} of the others: {', '.join(others)}{_unit(of.sizes[0])}" if others else ""
     return f"{words}{'; it is faint' if of.faint else ''}."
 
 
@@ -65,10 +70,13 @@ def effect_rows(found: SpecimensReport) -> list[dict[str, Any]]:
     """Return one row for every strength of an effect."""
     rows = []
     for e in found.effects:
-        for n in e.sizes or (None,):
+        for n in e.sizes or [None]:
             row: dict[str, Any] = {"effect": e.effect, "of": "all" if e.of != OWN else e.specimen}
             row |= {"probability": _percent(e.probability), "of what matters": f"{e.size:.2g}"}
-            rows.append(row | ({} if n is None else _over(n)))
+            if n is not None:  # a mean over specimens says nothing of what one of them has alone
+                own = {"number": _named(n), e.specimen: _number(n, n.values.get(e.specimen, float("nan")))}
+                row |= own if e.of == OWN else _over(n)
+            rows.append({name: row.get(name, "") for name in (*_FIRST, *found.names)})
     return rows
 
 
@@ -78,7 +86,7 @@ def number_rows(found: SpecimensReport) -> list[dict[str, Any]]:
 
 
 def _over(n: NumberOverSpecimens) -> dict[str, Any]:
-    row: dict[str, Any] = {"number": f"{n.key} [{_shown(n)}]"}
+    row: dict[str, Any] = {"number": _named(n)}
     if n.over is not None:
         o = n.over
         row |= {"mean": f"{_number(n, o.mean)} ({_number(n, o.low)} to {_number(n, o.high)})"}
@@ -88,7 +96,16 @@ def _over(n: NumberOverSpecimens) -> dict[str, Any]:
 
 def _spread_words(n: NumberOverSpecimens) -> str:
     each = ", ".join(f"{name} {_number(n, value)}" for name, value in n.values.items())
-    return f"{n.key} {each} ({_shown(n)})"
+    return f"{n.key} {each}{_unit(n)}"
+
+
+def _named(n: NumberOverSpecimens) -> str:
+    return f"{n.key} [{_shown(n)}]"
+
+
+def _unit(n: NumberOverSpecimens) -> str:
+    """Return the unit behind values, as the end of a sentence; nothing of a pure number."""
+    return "" if _shown(n) == "1" else f" [{_shown(n)}]"
 
 
 def _shown(n: NumberOverSpecimens) -> str:
