@@ -17,7 +17,6 @@ from slipwise.cli.diagnosis_files import write_diagnosis
 from slipwise.cli.options import own_effects, start_model
 from slipwise.cli.workers import chosen_executor
 from slipwise.errors import InputError, SettingError, SlipwiseError, SlipwiseWarning, visible
-from slipwise.jobs.parallel import one_thread_algebra
 
 
 @dataclass(frozen=True)
@@ -124,8 +123,8 @@ def diagnose_many(
     folder = out_folder(out)
     outcomes = run_campaigns(campaigns, folder, wanted, workers, cluster)
     compared = sw.campaigns.compare_outcomes(outcomes)
-    together, reason = judge_together(outcomes, folder)
-    files = write_together(outcomes, compared, folder, together, reason)
+    together, reasons = judge_together(outcomes, folder)
+    files = write_together(outcomes, compared, folder, together, reasons)
     if json:
         print_json(summary_json(outcomes, compared, together))
     else:
@@ -136,7 +135,7 @@ def diagnose_many(
         for head, sentences in (("common to all", common), ("differs", differs)):
             for words in sentences or ["nothing"]:
                 say(f"{head}: {words}")
-        _tell_together(together, reason)
+        _tell_together(together, reasons)
         for path in files:
             say(f"wrote {path}")
         say_next(f"open {files[0]}, which leads to the page of every campaign")
@@ -145,23 +144,30 @@ def diagnose_many(
 
 def judge_together(
     outcomes: "Sequence[sw.campaigns.Outcome]", folder: Path
-) -> "tuple[sw.specimens.SpecimensReport | None, str]":
-    """Fit one law over the campaigns that were diagnosed; without one, why there is none."""
+) -> "tuple[sw.specimens.SpecimensReport | None, list[str]]":
+    """Fit one law over the campaigns that were weighed; with it, why a campaign is left out or there is no law."""
+    specimens, reasons = list["sw.specimens.Specimen"](), list[str]()
+    for outcome in outcomes:
+        if outcome.failed or not outcome.numbers["weighed"]:
+            reasons.append(f"{outcome.name} is left out of the law over all: nothing was weighed in it")
+            continue
+        try:
+            specimens.append(sw.specimens.read_specimen(folder / outcome.name / "specimen.npz"))
+        except InputError as error:
+            reasons.append(f"{outcome.name} is left out of the law over all: {error}")
     try:
-        told = [outcome.name for outcome in outcomes if not outcome.failed and outcome.numbers["weighed"]]
-        with one_thread_algebra():
-            specimens = [sw.specimens.read_specimen(folder / name / "specimen.npz") for name in told]
-            return sw.judge_specimens(specimens), ""
+        return sw.judge_specimens(specimens), reasons
     except InputError as error:
-        return None, str(error)
+        return None, [*reasons, f"no law over all: {error}"]
 
 
-def _tell_together(together: "sw.specimens.SpecimensReport | None", reason: str) -> None:
+def _tell_together(together: "sw.specimens.SpecimensReport | None", reasons: Sequence[str]) -> None:
     from slipwise.view.words.specimen_words import effect_rows, effect_sentences, not_compared_words, number_rows
     from slipwise.view.words.terminal import print_table
 
+    for words in reasons:
+        say(words)
     if together is None:
-        say(f"no law over all: {reason}")
         return
     say(f"one law over all: {together.sentence}")
     for words in (*effect_sentences(together), *not_compared_words(together)):
@@ -177,7 +183,7 @@ def write_together(
     compared: "sw.campaigns.Compared",
     folder: Path,
     together: "sw.specimens.SpecimensReport | None" = None,
-    reason: str = "",
+    reasons: Sequence[str] = (),
 ) -> list[Path]:
     """Write what leads to the results of all campaigns, their numbers side by side, and the law over all."""
     from slipwise.view.files import save_json, save_page, save_rows
@@ -185,7 +191,7 @@ def write_together(
     from slipwise.view.words.campaign_tables import flat_rows, summary_json
 
     files = [
-        save_page(campaigns_page(outcomes, compared, together, reason), folder / "index.html"),
+        save_page(campaigns_page(outcomes, compared, together, reasons), folder / "index.html"),
         save_json(summary_json(outcomes, compared, together), folder / "summary.json"),
         save_rows(flat_rows(outcomes), folder / "summary.csv"),
     ]

@@ -5,12 +5,15 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
+from slipwise.cli.batch import judge_together
 from slipwise.errors import InputError
 from slipwise.estimation.intervals import Interval
 from slipwise.specimens.judge import judge_specimens
 from slipwise.specimens.result import OWN, SHARED
 from slipwise.specimens.specimen import Specimen, condense
 from slipwise.specimens.specimen_file import read_specimen, write_specimen
+from slipwise.studies.campaigns import Compared, Outcome
+from slipwise.view.pages.campaigns_page import campaigns_page
 from slipwise.view.words.specimen_words import effect_sentences
 from weighed import BASE_SLOPE, column, noise, terms_of, waves, weigh
 
@@ -107,3 +110,16 @@ def test_a_specimen_that_was_written_says_the_same(four: list[Specimen], tmp_pat
     (tmp_path / "a.npz").write_bytes(b"half a file")
     with pytest.raises(InputError, match="diagnose its campaign again"):
         read_specimen(tmp_path / "a.npz")
+
+
+def test_a_campaign_that_cannot_be_joined_is_told_and_the_rest_is_joined(four: list[Specimen], tmp_path) -> None:
+    for s in four[:3]:
+        write_specimen(s, tmp_path / s.name / "specimen.npz")
+    outcomes = [Outcome(name, {"weighed": True}) for name in "abcd"]
+    found, reasons = judge_together([*outcomes, Outcome("e", {"failed": "no unit"})], tmp_path)
+    assert found is not None and found.names == ("a", "b", "c")
+    assert [words[:13] for words in reasons] == ["d is left out", "e is left out"]
+    page = campaigns_page([], Compared((), (), ()), found, reasons)
+    assert "One law over all specimens" in page and "run_in is a property of c" in page and "d is left out" in page
+    nothing, reasons = judge_together(outcomes[:1], tmp_path)
+    assert nothing is None and "no law over all" in reasons[-1]

@@ -20,7 +20,7 @@ _NOTHING = "Nothing."
 
 
 def campaigns_page(
-    outcomes: Sequence[Outcome], found: Compared, together: SpecimensReport | None = None, reason: str = ""
+    outcomes: Sequence[Outcome], found: Compared, together: SpecimensReport | None = None, reasons: Sequence[str] = ()
 ) -> str:
     """Make the page, to be put beside the folders of the campaigns.
 
@@ -28,7 +28,7 @@ def campaigns_page(
         outcomes: of the campaigns.
         found: what differs between them.
         together: one law over all of them.
-        reason: why there is none.
+        reasons: why a campaign is left out of that, or there is none.
 
     Returns:
         The text of a self-contained HTML file.
@@ -47,17 +47,18 @@ def campaigns_page(
                 details(f"All {len(every)} numbers that two campaigns have", [bullets(every)]),
             ],
         ),
-        *([Section("One law over all specimens", _together(together, reason))] if together or reason else []),
+        *([Section("One law over all specimens", _together(together, reasons))] if together or reasons else []),
         Section("Base parameters", [_base(outcome) for outcome in outcomes if not outcome.failed]),
     ]
     return page(f"Diagnosis of {len(outcomes)} campaigns", sections)
 
 
-def _together(found: SpecimensReport | None, reason: str) -> list[Html]:
+def _together(found: SpecimensReport | None, reasons: Sequence[str]) -> list[Html]:
+    parts = [bullets(reasons)] if reasons else []
     if found is None:
-        return [paragraph(f"None: {reason}.")]
+        return parts
     sentences = [*effect_sentences(found), *not_compared_words(found)]
-    parts = [paragraph(found.sentence), *([bullets(sentences)] if sentences else [])]
+    parts += [paragraph(found.sentence), *([bullets(sentences)] if sentences else [])]
     if rows := effect_rows(found):
         parts.append(table(rows, "Effects over all specimens"))
     if rows := number_rows(found):
