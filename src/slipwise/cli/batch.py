@@ -146,7 +146,7 @@ def judge_together(
     outcomes: "Sequence[sw.campaigns.Outcome]", folder: Path
 ) -> "tuple[sw.specimens.SpecimensReport | None, list[str]]":
     """Fit one law over the campaigns that were weighed; with it, why a campaign is left out or there is no law."""
-    specimens, reasons = list["sw.specimens.Specimen"](), list[str]()
+    specimens, reasons = list["sw.specimens.SpecimenStatistics"](), list[str]()
     for outcome in outcomes:
         if outcome.failed or not outcome.numbers["weighed"]:
             reasons.append(f"{outcome.name} is left out of the law over all: nothing was weighed in it")

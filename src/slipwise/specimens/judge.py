@@ -14,7 +14,7 @@ from slipwise.specimens.random_effects import combine
 from slipwise.specimens.result import OWN, SHARED, JointEffect, NumberOverSpecimens, SpecimensReport
 from slipwise.specimens.shared_columns import SharedColumns, list_shared_columns
 from slipwise.specimens.shared_law import SharedLaw, fit_shared_law, list_own_trifles
-from slipwise.specimens.specimen import Specimen, is_of_model, make_specimen
+from slipwise.specimens.specimen import SpecimenStatistics, is_of_model, make_specimen
 
 #: Units of base numbers that mean the same on any rig: those of friction over speed and pressure.
 _OF_THE_FACES = ("1", "Pa", "1/Pa", "s/m", "m/s")
@@ -25,7 +25,7 @@ _FAINT = 0.3
 
 
 @one_thread_algebra()
-def judge_specimens(found: Sequence[Diagnosis | Specimen]) -> SpecimensReport:
+def judge_specimens(found: Sequence[Diagnosis | SpecimenStatistics]) -> SpecimensReport:
     """Fit one law over several specimens whose sizes differ from one to another, and say what all of them have.
 
     An effect that is too small to be named in each campaign, and is seen alike in all, is evidence here; one that is
@@ -37,7 +37,7 @@ def judge_specimens(found: Sequence[Diagnosis | Specimen]) -> SpecimensReport:
     Raises:
         InputError: fewer than two campaigns, two that are called alike, or none that share a law.
     """
-    specimens = [one if isinstance(one, Specimen) else make_specimen(one) for one in found]
+    specimens = [one if isinstance(one, SpecimenStatistics) else make_specimen(one) for one in found]
     if len(specimens) < 2:
         given = f"only {specimens[0].name} was given" if specimens else "none was given"
         raise InputError(f"one law over several specimens needs two campaigns at least; {given}")
@@ -64,7 +64,7 @@ def judge_specimens(found: Sequence[Diagnosis | Specimen]) -> SpecimensReport:
     )
 
 
-def _shared_effects(specimens: Sequence[Specimen], law: SharedLaw) -> list[JointEffect]:
+def _shared_effects(specimens: Sequence[SpecimenStatistics], law: SharedLaw) -> list[JointEffect]:
     out = []
     columns = law.shared.columns
     for effect in dict.fromkeys(c.effect for c in columns):
@@ -79,7 +79,7 @@ def _shared_effects(specimens: Sequence[Specimen], law: SharedLaw) -> list[Joint
     return out
 
 
-def _own_effects(specimens: Sequence[Specimen], law: SharedLaw) -> list[JointEffect]:
+def _own_effects(specimens: Sequence[SpecimenStatistics], law: SharedLaw) -> list[JointEffect]:
     out = []
     first = len(law.shared.columns)
     groups: dict[tuple[int, str], list[int]] = {}
@@ -107,7 +107,7 @@ def _shared_like(shared: SharedColumns, specimen: int, place: int) -> list[int]:
 
 
 def _effect(
-    specimens: Sequence[Specimen], law: SharedLaw, label: str, one: str, probability: float, size: float,
+    specimens: Sequence[SpecimenStatistics], law: SharedLaw, label: str, one: str, probability: float, size: float,
     best: Sequence[int], own: int = -1,
 ) -> JointEffect:  # fmt: skip
     """Make the entry of an effect that all specimens have, or one of them in one of its columns."""
@@ -133,7 +133,7 @@ def _effect(
     )
 
 
-def _sizes(specimens: Sequence[Specimen], law: SharedLaw, best: Sequence[int]) -> list[NumberOverSpecimens]:
+def _sizes(specimens: Sequence[SpecimenStatistics], law: SharedLaw, best: Sequence[int]) -> list[NumberOverSpecimens]:
     """Return the strengths of a shared form in every specimen that tells them, all else as the posterior has it."""
     if not best:
         return []
@@ -160,7 +160,7 @@ def _sizes(specimens: Sequence[Specimen], law: SharedLaw, best: Sequence[int]) -
     return out
 
 
-def _estimate(of: Specimen, law: SharedLaw, place: int, part: Array) -> tuple[Array, Array]:
+def _estimate(of: SpecimenStatistics, law: SharedLaw, place: int, part: Array) -> tuple[Array, Array]:
     """Return the sizes (m,) of a form in one campaign, and their standard errors [limits].
 
     The trifle that its own columns have beside is part of its size there, not of the error.
@@ -176,7 +176,7 @@ def _estimate(of: Specimen, law: SharedLaw, place: int, part: Array) -> tuple[Ar
     return estimate, np.sqrt(np.maximum(variance, _EXACT**2))
 
 
-def _base_numbers(specimens: Sequence[Specimen], law: SharedLaw) -> list[NumberOverSpecimens]:
+def _base_numbers(specimens: Sequence[SpecimenStatistics], law: SharedLaw) -> list[NumberOverSpecimens]:
     """Return the base numbers that two specimens have, moved to where they lie beside the shared law."""
     alike = len({s.rig for s in specimens}) == 1
     values: dict[str, dict[str, float]] = {}
@@ -199,7 +199,7 @@ def _base_numbers(specimens: Sequence[Specimen], law: SharedLaw) -> list[NumberO
     ]
 
 
-def _moved_numbers(of: Specimen, law: SharedLaw, place: int) -> Array:
+def _moved_numbers(of: SpecimenStatistics, law: SharedLaw, place: int) -> Array:
     """Return by how much the base numbers (b,) move where the shared law stands in place of the campaign's own model.
 
     The effects of a campaign's own model that the shared law has too, with the sizes that it has there.

@@ -7,7 +7,7 @@ import numpy as np
 
 from slipwise.arrays import Array
 from slipwise.short_repr import short_repr
-from slipwise.specimens.specimen import Specimen, SpecimenColumn, is_of_model
+from slipwise.specimens.specimen import SpecimenStatistics, SpecimenColumn, is_of_model
 
 #: Unit of a strength that means the same on any rig: a share, a ratio, a coefficient of friction.
 _PURE = "1"
@@ -31,7 +31,7 @@ class SharedColumns:
     not_compared: Mapping[str, tuple[str, ...]]
 
 
-def list_shared_columns(specimens: Sequence[Specimen]) -> SharedColumns:
+def list_shared_columns(specimens: Sequence[SpecimenStatistics]) -> SharedColumns:
     """Match the columns of campaigns by effect, shape and strength.
 
     Campaigns of one rig share every effect but faults of gauges and what sits on one pad. Those of different rigs share
@@ -83,7 +83,7 @@ def _distinct(columns: Sequence[SpecimenColumn]) -> list[SpecimenColumn]:
 
 
 def _renumbered(columns: Sequence[SpecimenColumn]) -> tuple[SpecimenColumn, ...]:
-    """Give forms of one effect numbers of their own: two campaigns may have numbered different shapes alike."""
+    """Return the columns, each form of an effect with a number of its own: two campaigns may have used one for two."""
     numbers: dict[tuple, int] = {}
     out = []
     for c in columns:

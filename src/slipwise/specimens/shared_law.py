@@ -24,7 +24,7 @@ from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.posterior import list_trifles, sample_large_sizes
 from slipwise.short_repr import short_repr
 from slipwise.specimens.shared_columns import SharedColumns
-from slipwise.specimens.specimen import Specimen, SpecimenColumn, is_of_model
+from slipwise.specimens.specimen import SpecimenStatistics, SpecimenColumn, is_of_model
 
 #: A term that is likelier than this to be no trifle in one campaign alone may be a property of its specimen [1].
 _OWN = 0.01
@@ -76,7 +76,7 @@ class SharedLaw:
         return out
 
 
-def fit_shared_law(specimens: Sequence[Specimen], shared: SharedColumns) -> SharedLaw:
+def fit_shared_law(specimens: Sequence[SpecimenStatistics], shared: SharedColumns) -> SharedLaw:
     """Sample what specimens have together and alone.
 
     Args:
@@ -113,7 +113,7 @@ def fit_shared_law(specimens: Sequence[Specimen], shared: SharedColumns) -> Shar
     return SharedLaw(shared, tuple(own), sizes, trifles, tuple(of[0] for of in reduced), tuple(of[1] for of in reduced))
 
 
-def _integrate_numbers(of: Specimen) -> tuple[Array, Array]:
+def _integrate_numbers(of: SpecimenStatistics) -> tuple[Array, Array]:
     """Return what a campaign says of its sizes (K, K), (K,), its numbers and what is trifling in it integrated out."""
     base = len(of.numbers)
     ridge = np.concatenate([of.ridge[:base], list_own_trifles(of) ** -2.0])
@@ -122,7 +122,7 @@ def _integrate_numbers(of: Specimen) -> tuple[Array, Array]:
     return 0.5 * (precision + precision.T), of.pull[base:] - of.whole[base:] @ solved[:, -1]
 
 
-def list_own_trifles(of: Specimen) -> Array:
+def list_own_trifles(of: SpecimenStatistics) -> Array:
     """Return the standard deviation (K,) of what a specimen has of every column by itself [limits]."""
     alone = [1.0 if c.gauge or c.label != c.effect else 1.0 - _ALIKE for c in of.columns]
     return np.sqrt(alone) * of.trifle
@@ -136,7 +136,7 @@ def _as_candidate(c: SpecimenColumn) -> CandidateColumn:
     )
 
 
-def _as_own(specimens: Sequence[Specimen], of: OwnColumn) -> CandidateColumn:
+def _as_own(specimens: Sequence[SpecimenStatistics], of: OwnColumn) -> CandidateColumn:
     c, name = specimens[of.specimen].columns[of.place], specimens[of.specimen].name
     return replace(_as_candidate(c), label=own_label(c.label, name), effect=own_label(c.effect, name))
 
@@ -146,7 +146,7 @@ def own_label(label: str, specimen: str) -> str:
     return f"{label} of {specimen}"
 
 
-def _apart(specimens: Sequence[Specimen]) -> set[tuple[str, str]]:
+def _apart(specimens: Sequence[SpecimenStatistics]) -> set[tuple[str, str]]:
     """Return what cannot be in one model, in both orders: two laws in one place, shared or of one specimen."""
     out: set[tuple[str, str]] = set()
     for s in specimens:

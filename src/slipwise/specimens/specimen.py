@@ -83,7 +83,7 @@ class SpecimenNumber:
 
 @short_repr
 @dataclass(frozen=True)
-class Specimen:
+class SpecimenStatistics:
     """One campaign of several.
 
     Attributes:
@@ -113,7 +113,7 @@ class Specimen:
     apart: tuple[tuple[str, str], ...]
 
 
-def make_specimen(found: Diagnosis, name: str = "") -> Specimen:
+def make_specimen(found: Diagnosis, name: str = "") -> SpecimenStatistics:
     """Keep of a diagnosis what a law over several specimens needs.
 
     Args:
@@ -133,7 +133,7 @@ def make_specimen(found: Diagnosis, name: str = "") -> Specimen:
 
 def condense(
     name: str, rig: str, weighed: WeighedModel, terms: Sequence[Term], entries: Sequence[Interval], named: Sequence[str]
-) -> Specimen:
+) -> SpecimenStatistics:
     """Keep of a weighed model what a law over several specimens needs.
 
     Args:
@@ -155,7 +155,7 @@ def condense(
     )
     known = {e.key: e for e in entries}
     chance = np.mean(weighed.posterior.sizes > 0.0, axis=0).tolist()
-    return Specimen(
+    return SpecimenStatistics(
         name,
         rig,
         columns,

@@ -9,7 +9,7 @@ import numpy as np
 
 from slipwise.errors import InputError
 from slipwise.jobs.atomic_write import atomic
-from slipwise.specimens.specimen import Specimen, SpecimenColumn, SpecimenNumber
+from slipwise.specimens.specimen import SpecimenStatistics, SpecimenColumn, SpecimenNumber
 
 #: Number of the format.
 SCHEMA = 1
@@ -30,7 +30,7 @@ class _About:
     apart: tuple[tuple[str, str], ...]
 
 
-def write_specimen(of: Specimen, path: Path) -> Path:
+def write_specimen(of: SpecimenStatistics, path: Path) -> Path:
     """Write a specimen.
 
     Args:
@@ -47,7 +47,7 @@ def write_specimen(of: Specimen, path: Path) -> Path:
     return path
 
 
-def read_specimen(path: Path) -> Specimen:
+def read_specimen(path: Path) -> SpecimenStatistics:
     """Read a specimen.
 
     Raises:
@@ -64,7 +64,7 @@ def read_specimen(path: Path) -> Specimen:
     if about.schema != SCHEMA:
         raise InputError(f"{path} is of another version of slipwise; diagnose its campaign again")
     whole, ridge, pull, trifle = arrays
-    return Specimen(
+    return SpecimenStatistics(
         about.name, about.rig, about.columns, about.numbers, whole, ridge, pull, trifle, about.chance, about.named,
         about.apart,
     )  # fmt: skip

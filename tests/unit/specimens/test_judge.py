@@ -10,7 +10,7 @@ from slipwise.errors import InputError
 from slipwise.estimation.intervals import Interval
 from slipwise.specimens.judge import judge_specimens
 from slipwise.specimens.result import OWN, SHARED
-from slipwise.specimens.specimen import Specimen, condense
+from slipwise.specimens.specimen import SpecimenStatistics, condense
 from slipwise.specimens.specimen_file import read_specimen, write_specimen
 from slipwise.studies.campaigns import Compared, Outcome
 from slipwise.view.pages.campaigns_page import campaigns_page
@@ -23,7 +23,9 @@ LOUD = {"breakaway": 0.35, "run_in": 1.0, "guide_drag": 1.0}
 MASS, ERROR = 1.0e4, 20.0
 
 
-def specimen(name: str, seed: int, sizes: Mapping[str, float], *, rig: str = "bridge1", mixed: float = 0.0) -> Specimen:
+def specimen(
+    name: str, seed: int, sizes: Mapping[str, float], *, rig: str = "bridge1", mixed: float = 0.0
+) -> SpecimenStatistics:
     """Give a specimen that has these effects; a part of what they change looks like its base number."""
     made = waves(len(LOUD), seed)
     columns = {label: loud * (made[:, k] + mixed * BASE_SLOPE[:, 0]) for k, (label, loud) in enumerate(LOUD.items())}
@@ -37,7 +39,7 @@ def specimen(name: str, seed: int, sizes: Mapping[str, float], *, rig: str = "br
 
 
 @pytest.fixture(scope="module")
-def four() -> list[Specimen]:
+def four() -> list[SpecimenStatistics]:
     """Four specimens with a breakaway that is too small to be named in each; one has also run in."""
     return [
         specimen(name, seed, {"breakaway": 0.65, "run_in": 2.0 if name == "c" else 0.0})
@@ -45,14 +47,16 @@ def four() -> list[Specimen]:
     ]
 
 
-def test_a_trifle_that_no_campaign_shows_alone_is_evidence_where_all_show_it(four: list[Specimen]) -> None:
+def test_a_trifle_that_no_campaign_shows_alone_is_evidence_where_all_show_it(four: list[SpecimenStatistics]) -> None:
     assert all(s.chance["breakaway"] < 0.5 for s in four)
     found = next(e for e in judge_specimens(four).effects if e.of == SHARED)
     assert found.effect == "breakaway" and found.probability > 0.75
     assert found.size == pytest.approx(0.65, abs=0.25)
 
 
-def test_what_one_specimen_has_and_the_others_contradict_is_a_property_of_that_one(four: list[Specimen]) -> None:
+def test_what_one_specimen_has_and_the_others_contradict_is_a_property_of_that_one(
+    four: list[SpecimenStatistics],
+) -> None:
     found = judge_specimens(four)
     own = [e for e in found.effects if e.of == OWN]
     assert [(e.effect, e.specimen) for e in own] == [("run_in", "c")]
@@ -89,7 +93,7 @@ def test_between_rigs_a_share_is_compared_and_a_damping_is_not() -> None:
     assert found.numbers == ()
 
 
-def test_what_cannot_be_joined_is_told_in_a_sentence(four: list[Specimen]) -> None:
+def test_what_cannot_be_joined_is_told_in_a_sentence(four: list[SpecimenStatistics]) -> None:
     with pytest.raises(InputError, match="needs two campaigns at least; only a was given"):
         judge_specimens(four[:1])
     with pytest.raises(InputError, match="two campaigns are called a"):
@@ -104,7 +108,7 @@ def _as_gauge(of):
     return of.__class__(**{**vars(of), "gauge": True})
 
 
-def test_a_specimen_that_was_written_says_the_same(four: list[Specimen], tmp_path) -> None:
+def test_a_specimen_that_was_written_says_the_same(four: list[SpecimenStatistics], tmp_path) -> None:
     read = [read_specimen(write_specimen(s, tmp_path / f"{s.name}.npz")) for s in four]
     assert judge_specimens(read).as_json() == judge_specimens(four).as_json()
     (tmp_path / "a.npz").write_bytes(b"half a file")
@@ -112,7 +116,9 @@ def test_a_specimen_that_was_written_says_the_same(four: list[Specimen], tmp_pat
         read_specimen(tmp_path / "a.npz")
 
 
-def test_a_campaign_that_cannot_be_joined_is_told_and_the_rest_is_joined(four: list[Specimen], tmp_path) -> None:
+def test_a_campaign_that_cannot_be_joined_is_told_and_the_rest_is_joined(
+    four: list[SpecimenStatistics], tmp_path
+) -> None:
     for s in four[:3]:
         write_specimen(s, tmp_path / s.name / "specimen.npz")
     outcomes = [Outcome(name, {"weighed": True}) for name in "abcd"]
