@@ -7,7 +7,7 @@ import numpy as np
 
 from slipwise.arrays import Array
 from slipwise.short_repr import short_repr
-from slipwise.specimens.specimen import SpecimenStatistics, SpecimenColumn, is_of_model
+from slipwise.specimens.specimen import SpecimenColumn, SpecimenStatistics, is_of_model
 
 #: Unit of a strength that means the same on any rig: a share, a ratio, a coefficient of friction.
 _PURE = "1"

@@ -24,7 +24,7 @@ from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.posterior import list_trifles, sample_large_sizes
 from slipwise.short_repr import short_repr
 from slipwise.specimens.shared_columns import SharedColumns
-from slipwise.specimens.specimen import SpecimenStatistics, SpecimenColumn, is_of_model
+from slipwise.specimens.specimen import SpecimenColumn, SpecimenStatistics, is_of_model
 
 #: A term that is likelier than this to be no trifle in one campaign alone may be a property of its specimen [1].
 _OWN = 0.01

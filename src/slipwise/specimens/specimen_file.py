@@ -9,7 +9,7 @@ import numpy as np
 
 from slipwise.errors import InputError
 from slipwise.jobs.atomic_write import atomic
-from slipwise.specimens.specimen import SpecimenStatistics, SpecimenColumn, SpecimenNumber
+from slipwise.specimens.specimen import SpecimenColumn, SpecimenNumber, SpecimenStatistics
 
 #: Number of the format.
 SCHEMA = 1
