@@ -113,6 +113,11 @@ meant.sentence
 shutil.copytree("my_campaign", "of_the_office")  # stands for the same runs as a program predicted them
 judged = sw.judge_prediction(campaign, "of_the_office")
 judged.sentence
+# %% judge_specimens, SpecimensReport (minutes)
+shutil.copytree("my_campaign", "another_specimen")  # stands for the same test of a second specimen
+specimens = [sw.specimens.make_specimen(sw.diagnose(f), f) for f in ("my_campaign", "another_specimen")]
+together = sw.judge_specimens(specimens)
+together.sentence
 # %% compare (minutes)
 comparison = sw.compare(campaign, system=False)
 # %% Comparison (minutes)

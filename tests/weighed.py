@@ -12,7 +12,7 @@ from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.posterior import compute_posterior
 from slipwise.selection.statistics import compute_statistics
 from slipwise.selection.units import Moved
-from slipwise.selection.weighed_model import DRAWS, WeighedModel
+from slipwise.selection.weighed_model import DRAWS, BaseNumber, WeighedModel
 
 ROWS = 3000
 #: Strength of an effect of the catalogue that stands for a made column.
@@ -37,20 +37,35 @@ def column(name: str, values: Array, *, form: int = 0, unit: float = 0.02) -> Ca
     return CandidateColumn(name, name, False, form, STRENGTHS[name], {}, neutral, True, unit, small)
 
 
+#: What one unit of the only number of a base model changes (q, 1).
+BASE_SLOPE = waves(1, 5)
+
+
 def weigh(
-    left: Array, columns: Sequence[CandidateColumn], units: Mapping[tuple[str, str], Moved] | None = None
+    left: Array,
+    columns: Sequence[CandidateColumn],
+    units: Mapping[tuple[str, str], Moved] | None = None,
+    number: float = 1.0e4,
 ) -> WeighedModel:
     """Give what is kept of a base model that leaves this residual, with one number of its own and no effect in it."""
     zeros = np.zeros(ROWS, np.int64)
     rows = AveragedRows((), ("pads",), zeros, zeros, np.ones(ROWS), np.array([float(ROWS)]))
-    slopes = waves(1, 5)
+    slopes = BASE_SLOPE
     statistics = compute_statistics(rows, left, left, slopes, np.ones(1, bool), columns)
     every = np.column_stack([slopes, *(c.column for c in columns)])
     signs = np.random.default_rng(4).choice([-1.0, 1.0], size=(DRAWS, ROWS))
     redrawn = ((signs * left) @ every)[:, None]
     posterior = compute_posterior(statistics, columns, {})
     return WeighedModel(
-        statistics, tuple(columns), {}, frozenset(), posterior, np.zeros(every.shape[1]), redrawn, dict(units or {})
+        statistics,
+        tuple(columns),
+        {},
+        frozenset(),
+        posterior,
+        np.zeros(every.shape[1]),
+        redrawn,
+        dict(units or {}),
+        (BaseNumber("rig.mass", number, 100.0),),
     )
 
 

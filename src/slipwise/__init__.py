@@ -23,7 +23,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    from slipwise import channels, effects, motion, rig, workbench
+    from slipwise import channels, effects, motion, rig, specimens, workbench
     from slipwise.bearings.judge import judge_bearing as bearing
     from slipwise.bearings.result import BearingReport
     from slipwise.campaign import Campaign, load_campaign
@@ -60,6 +60,8 @@ if TYPE_CHECKING:
     from slipwise.simulation.pier import pier_top
     from slipwise.simulation.replay import replay
     from slipwise.simulation.simulator import Replay, SimulationDiverged
+    from slipwise.specimens.judge import judge_specimens
+    from slipwise.specimens.result import SpecimensReport
     from slipwise.studies import campaigns, ensemble, paper
     from slipwise.studies.consequence.judge import judge_consequence as consequence
     from slipwise.studies.consequence.result import Consequence
@@ -95,6 +97,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "next_test": ("design.next_test", "next_test"),
     "plan": ("planning.plan", "plan"),
     "watch": ("monitoring.watch", "watch"),
+    "judge_specimens": ("specimens.judge", "judge_specimens"),
     "judge_prediction": ("prediction.judge", "judge_prediction"),
     "read_record": ("record", "read_record"),
     "write_record": ("record", "write_record"),
@@ -123,6 +126,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "Session": ("session.session", "Session"),
     "SimulationDiverged": ("simulation.simulator", "SimulationDiverged"),
     "SlipwiseError": ("errors", "SlipwiseError"),
+    "SpecimensReport": ("specimens.result", "SpecimensReport"),
     "TableMotion": ("motion", "TableMotion"),
     "campaigns": ("studies.campaigns", ""),
     "channels": ("channels", ""),
@@ -132,6 +136,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "motion": ("motion", ""),
     "paper": ("studies.paper", ""),
     "rig": ("rig", ""),
+    "specimens": ("specimens", ""),
     "workbench": ("workbench", ""),
 }
 
@@ -161,6 +166,7 @@ __all__ = [
     "Session",
     "SimulationDiverged",
     "SlipwiseError",
+    "SpecimensReport",
     "TableMotion",
     "__version__",
     "add",
@@ -182,6 +188,7 @@ __all__ = [
     "export_sap2000",
     "init_campaign",
     "judge_prediction",
+    "judge_specimens",
     "ladder",
     "load_campaign",
     "load_model",
@@ -197,6 +204,7 @@ __all__ = [
     "replay",
     "rig",
     "save_model",
+    "specimens",
     "use",
     "watch",
     "workbench",

@@ -57,6 +57,7 @@ ARROWS: dict[str, str] = {
         "arrays campaign channels comparison display effects errors estimation evidence instruments jobs model noise"
         " preparation record regression relations residual_map rig selection simulation units"
     ),
+    "specimens": "arrays diagnosis display errors estimation evidence jobs relations selection",
     "discovery": (
         "arrays campaign diagnosis display effects errors estimation jobs model noise params preparation relations"
         " residual_map selection signals"
@@ -86,7 +87,7 @@ ARROWS: dict[str, str] = {
     ),
     "view": (
         "arrays bearings channels comparison diagnosis discovery effects errors estimation export jobs monitoring noise"
-        " params planning prediction record relations residual_map rig selection signals studies units"
+        " params planning prediction record relations residual_map rig selection signals specimens studies units"
     ),
     "cli": "errors jobs view",
     "workbench": (

@@ -30,6 +30,7 @@ WRITERS = {
     "`export sap2000 --json`": "export/sap2000.py",
     "`consequence.json`": "studies/consequence/result.py",
     "`predicted.json`": "prediction/result.py",
+    "`specimens.json`": "specimens/result.py",
     "`watch.json`": "monitoring/step.py",
     "a session's file": "session/schema.py",
 }

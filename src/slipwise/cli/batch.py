@@ -16,7 +16,7 @@ from slipwise.cli.console import ERR, counting, out_folder, print_json, say, say
 from slipwise.cli.diagnosis_files import write_diagnosis
 from slipwise.cli.options import own_effects, start_model
 from slipwise.cli.workers import chosen_executor
-from slipwise.errors import SettingError, SlipwiseError, SlipwiseWarning, visible
+from slipwise.errors import InputError, SettingError, SlipwiseError, SlipwiseWarning, visible
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,10 @@ def _diagnosed(job: Job) -> dict[str, Any]:
     start = start_model(job.campaign, wanted.model, wanted.trust, effects)
     found = sw.diagnose(measured, start, own=own_effects(effects, start), system=wanted.system)
     write_diagnosis(found, out_folder(job.out), wanted.recording and measured.specimen.free)
-    return sw.campaigns.numbers_of(found)
+    weighed = found.search.weighed is not None
+    if weighed:
+        sw.specimens.write_specimen(sw.specimens.make_specimen(found, job.out.name), job.out / "specimen.npz")
+    return {**sw.campaigns.numbers_of(found), "weighed": weighed}
 
 
 def run_campaigns(
@@ -86,8 +89,10 @@ def run_campaigns(
     keys = [sw.campaigns.campaign_key(j.campaign, wanted.model, own, [j.out.name, *settings]) for j in jobs]
 
     def lasting(numbers: dict[str, Any]) -> bool:
-        files = (home / numbers["folder"] / name for name in ("diagnosis.json", "report.html"))
-        return "failed" not in numbers and all(file.is_file() for file in files)
+        if "failed" in numbers:
+            return False
+        names = ("diagnosis.json", "report.html", *(["specimen.npz"] if numbers["weighed"] else []))
+        return all((home / numbers["folder"] / name).is_file() for name in names)
 
     with chosen_executor(cluster) as executor, counting("campaigns") as tell:
         finished = sw.executors.run_all(
@@ -118,9 +123,10 @@ def diagnose_many(
     folder = out_folder(out)
     outcomes = run_campaigns(campaigns, folder, wanted, workers, cluster)
     compared = sw.campaigns.compare_outcomes(outcomes)
-    files = write_together(outcomes, compared, folder)
+    together, reasons = judge_together(outcomes, folder)
+    files = write_together(outcomes, compared, folder, together, reasons)
     if json:
-        print_json(summary_json(outcomes, compared))
+        print_json(summary_json(outcomes, compared, together))
     else:
         print_table(title(len(outcomes)), campaign_rows(outcomes))
         for words in failure_sentences(outcomes):
@@ -129,25 +135,71 @@ def diagnose_many(
         for head, sentences in (("common to all", common), ("differs", differs)):
             for words in sentences or ["nothing"]:
                 say(f"{head}: {words}")
+        _tell_together(together, reasons)
         for path in files:
             say(f"wrote {path}")
         say_next(f"open {files[0]}, which leads to the page of every campaign")
     end(outcomes)
 
 
+def judge_together(
+    outcomes: "Sequence[sw.campaigns.Outcome]", folder: Path
+) -> "tuple[sw.specimens.SpecimensReport | None, list[str]]":
+    """Fit one law over the campaigns that were weighed; with it, why a campaign is left out or there is no law."""
+    specimens, reasons = list["sw.specimens.SpecimenStatistics"](), list[str]()
+    for outcome in outcomes:
+        if outcome.failed or not outcome.numbers["weighed"]:
+            reasons.append(f"{outcome.name} is left out of the law over all: nothing was weighed in it")
+            continue
+        try:
+            specimens.append(sw.specimens.read_specimen(folder / outcome.name / "specimen.npz"))
+        except InputError as error:
+            reasons.append(f"{outcome.name} is left out of the law over all: {error}")
+    try:
+        return sw.judge_specimens(specimens), reasons
+    except InputError as error:
+        return None, [*reasons, f"no law over all: {error}"]
+
+
+def _tell_together(together: "sw.specimens.SpecimensReport | None", reasons: Sequence[str]) -> None:
+    from slipwise.view.words.specimen_words import effect_rows, effect_sentences, not_compared_words, number_rows
+    from slipwise.view.words.terminal import print_table
+
+    for words in reasons:
+        say(words)
+    if together is None:
+        return
+    say(f"one law over all: {together.sentence}")
+    for words in (*effect_sentences(together), *not_compared_words(together)):
+        say(f"  {words}")
+    if rows := effect_rows(together):
+        print_table("Effects over all specimens", rows)
+    if rows := number_rows(together):
+        print_table("Numbers of the law: mean over specimens, and spread between them (95 %)", rows)
+
+
 def write_together(
-    outcomes: "Sequence[sw.campaigns.Outcome]", compared: "sw.campaigns.Compared", folder: Path
+    outcomes: "Sequence[sw.campaigns.Outcome]",
+    compared: "sw.campaigns.Compared",
+    folder: Path,
+    together: "sw.specimens.SpecimensReport | None" = None,
+    reasons: Sequence[str] = (),
 ) -> list[Path]:
-    """Write what leads to the results of all campaigns, and their numbers side by side."""
+    """Write what leads to the results of all campaigns, their numbers side by side, and the law over all."""
     from slipwise.view.files import save_json, save_page, save_rows
     from slipwise.view.pages.campaigns_page import campaigns_page
     from slipwise.view.words.campaign_tables import flat_rows, summary_json
 
-    return [
-        save_page(campaigns_page(outcomes, compared), folder / "index.html"),
-        save_json(summary_json(outcomes, compared), folder / "summary.json"),
+    files = [
+        save_page(campaigns_page(outcomes, compared, together, reasons), folder / "index.html"),
+        save_json(summary_json(outcomes, compared, together), folder / "summary.json"),
         save_rows(flat_rows(outcomes), folder / "summary.csv"),
     ]
+    law = folder / "specimens.json"
+    if together is None:
+        law.unlink(missing_ok=True)  # that of another call would be taken for this one's
+        return files
+    return [*files, save_json(together.as_json(), law)]
 
 
 def end(outcomes: "Sequence[sw.campaigns.Outcome]") -> None:

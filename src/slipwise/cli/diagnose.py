@@ -131,6 +131,7 @@ def _diagnose_prediction(
         print_json(judged.as_json())
     else:
         _wrote(files)
+        say_next(f"open {folder / 'report.html'}", *_next_steps(judged.found, campaign, accepted=False))
 
 
 def _tell_prediction(judged: "sw.PredictionReport") -> None:

@@ -22,6 +22,7 @@ from slipwise.instruments.suspects import effect_of
 from slipwise.preparation.sample_fault import SampleFault
 from slipwise.relations.parameters import Term
 from slipwise.selection.hypothesis import Hypothesis
+from slipwise.selection.inclusion import make_evidence
 from slipwise.selection.posterior import Prior
 from slipwise.selection.search_state import Search
 from slipwise.short_repr import short_repr
@@ -148,19 +149,14 @@ def _in_place(state: Search, finding: EffectFinding) -> list[str]:
 def evidence_of(finding: EffectFinding) -> dict[str, float]:
     """Return the numbers on which the probability of an effect rests."""
     behind = finding.rival.behind if finding.rival is not None else 10.0
+    shared = make_evidence(
+        finding.inclusion, lead=finding.lead, gauge=finding.is_gauge, share=finding.share, beside=finding.beside
+    )
     return {
-        "lead": float(np.log(max(finding.lead, 0.1))),
+        **shared,
         "worth": float(np.log(max(finding.worth, 1.0))),
-        "share": float(np.log(max(finding.share, 1e-4))),
         "rival": float(np.clip(behind, 0.0, 10.0)),
         "bound": float(bool(finding.at_bound)),
-        "gauge": float(finding.is_gauge),
-        "stays": finding.stays,
-        "inclusion": finding.inclusion.log_odds,
-        "spread": min(finding.inclusion.spread, 1.0),
-        "seen": float(np.log(max(finding.inclusion.seen, 1e-2))),
-        "limits": float(np.log(max(finding.inclusion.size, 1e-2))),
-        "beside": float(np.log(finding.beside)),
         "size": float(np.log(max(finding.material, 1e-3))),
     }
 

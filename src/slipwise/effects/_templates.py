@@ -11,6 +11,21 @@ _ABOUT = (
     "This file works as it is: begin with it and change it bit by bit. Say here what happens physically, and in which "
     "test it shows.",
 )
+#: Port -> what its first law looks like, and the test that tells them apart: of a law of one's own say which of its.
+_RIVALS: dict[str, dict[str, str]] = {
+    "rig": {"uneven_seating": "that moves the loads at rest along one diagonal only, this one along the girder"},
+    "table": {"channel_gain": "a gain of the table's gauge also breaks slip = girder - table"},
+    "area": {"pressure_law": "sines of equal speed at several pressures"},
+    "shear": {"rate_and_state": "constant speeds: a straight line over log V is rate_and_state"},
+    "stick": {"channel_delay": "reversals of different acceleration: constant distance is this, constant time a delay"},
+    "pad": {"channel_delay": "sines of two frequencies: a delay grows with frequency, damping with speed"},
+    "train": {"presliding": "two loads: the machine's slope is the same at both, a contact's length is"},
+    "buffer": {"key_clearance": "a clearance is flat at the middle, hardening bends at the ends"},
+    "girder": {
+        "buffer_damping": "only yaw and pitch tell: the drag acts at the centre of gravity, damping at the keys"
+    },
+    "gauge": {"pad_spread": "the girder balance stays clean with a spread of friction"},
+}
 
 
 def _law(
@@ -19,7 +34,7 @@ def _law(
     title, equation, signature = words
     return WrittenEffect(
         "", title, equation, _ABOUT, "say in which range of speed, load or size it holds.", "assumed.", port,
-        component, hooks, tuple(parameters), signature, {}, **more,
+        component, hooks, tuple(parameters), signature, _RIVALS[port], **more,
     )  # fmt: skip
 
 

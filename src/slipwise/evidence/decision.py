@@ -47,6 +47,16 @@ def is_left(rest: Mapping[str, float], least: float) -> bool:
     return bool(np.exp(rest["relative"]) >= least)
 
 
+def compute_chance_to_matter(of: Mapping[str, float], chances: Calibration) -> float:
+    """Return the chance that an effect is there and matters: from `EVEN_ODDS` on it is named [1].
+
+    Args:
+        of: its evidence, as of `decide`.
+        chances: the calibration.
+    """
+    return chances.matters(of) * float(expit(of["inclusion"]))
+
+
 def decide(
     effects: Mapping[str, Mapping[str, float]], rest: Mapping[str, float], least: float, chances: Calibration
 ) -> Decision:
@@ -63,7 +73,7 @@ def decide(
     """
     effects = {name: {**of, "left": rest["left"]} for name, of in effects.items()}
     sure = {name: chances.present(of) for name, of in effects.items()}
-    both = {name: chances.matters(of) * float(expit(of["inclusion"])) for name, of in effects.items()}
+    both = {name: compute_chance_to_matter(of, chances) for name, of in effects.items()}
     named = tuple(name for name in effects if both[name] >= EVEN_ODDS)
     minor = tuple(name for name in effects if sure[name] >= LISTED and name not in named)
     left = is_left(rest, least)

@@ -46,6 +46,33 @@ class Inclusion:
 ABSENT = Inclusion(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
+def make_evidence(
+    of: Inclusion, *, lead: float, gauge: bool, share: float = 1.0, beside: float = 1.0, left: float = 0.0
+) -> dict[str, float]:
+    """Return the numbers on which the probability of an effect rests, as a calibration asks for them.
+
+    Args:
+        of: what a posterior says of it.
+        lead: standard errors by which the likelihood leads that without it.
+        gauge: whether it is a fault of gauges.
+        share: of what the base leaves that it takes away [1].
+        beside: what is left where it shows best [floors].
+        left: share of what is left that has structure [1].
+    """
+    return {
+        "lead": float(np.log(max(lead, 0.1))),
+        "share": float(np.log(max(share, 1e-4))),
+        "gauge": float(gauge),
+        "stays": of.stays,
+        "inclusion": of.log_odds,
+        "spread": min(of.spread, 1.0),
+        "seen": float(np.log(max(of.seen, 1e-2))),
+        "limits": float(np.log(max(of.size, 1e-2))),
+        "beside": float(np.log(beside)),
+        "left": left,
+    }
+
+
 def compute_inclusions(posterior: Posterior, fitted: Mapping[str, float]) -> dict[str, Inclusion]:
     """Return effect -> what the posterior says of it.
 

@@ -9,7 +9,7 @@ from slipwise.arrays import Array, Mask
 from slipwise.campaign.materiality import Materiality
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.relations.measurement import is_shifting
-from slipwise.relations.parameters import Term
+from slipwise.relations.parameters import Free, Term
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import OF_MODEL, CandidateColumn, make_column
 from slipwise.selection.hypothesis import Hypothesis
@@ -37,6 +37,7 @@ class Linearisation:
         fitted: (q,) averaged residual of the model.
         slopes: (q, b) averaged slopes of the numbers that are fitted whatever is missing.
         of_base: (b,) which of these belong to the base model.
+        numbers: (b,) these numbers.
         tolerances: of these numbers, for `compute_posterior`.
         own: columns of the effects of the model.
         columns: of candidates, in units of materiality, then those of the model's own effects.
@@ -49,6 +50,7 @@ class Linearisation:
     fitted: Array
     slopes: Array
     of_base: Mask
+    numbers: tuple[Free, ...]
     tolerances: Mapping[int, tuple[float, float]]
     own: tuple[CandidateColumn, ...]
     columns: tuple[CandidateColumn, ...]
@@ -99,7 +101,8 @@ def linearise(
     kept, tolerances = slopes[:, free], _tolerances(found, [keys[j] for j in free])
     every = (*columns, *own)
     statistics = compute_statistics(rows, left, fitted, kept, of_base, every)
-    return Linearisation(found, rows, left, fitted, kept, of_base, tolerances, tuple(own), every, statistics)
+    numbers = tuple(solution.free[j] for j in free)
+    return Linearisation(found, rows, left, fitted, kept, of_base, numbers, tolerances, tuple(own), every, statistics)
 
 
 def _whole_effect(here: BaseFit, term: Term, rows: AveragedRows, slopes: Array, stacked: Array) -> Array:

@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 from scipy.special import log_ndtr, ndtr
 
 from slipwise.arrays import Array
-from slipwise.evidence.calibration import Calibration, compute_log_odds
-from slipwise.evidence.decision import EVEN_ODDS, LISTED
+from slipwise.evidence.calibration import Calibration
+from slipwise.evidence.decision import EVEN_ODDS, LISTED, compute_chance_to_matter
 from slipwise.selection.columns import CandidateColumn
-from slipwise.selection.inclusion import MATTERS, SEEN
+from slipwise.selection.inclusion import MATTERS, SEEN, Inclusion, make_evidence
 from slipwise.selection.posterior import Prior, list_trifles, make_normal_system
 from slipwise.selection.proposals import LIKELY, LIKELY_FLOORS, LIKELY_LIMITS
 from slipwise.selection.statistics import Statistics, compute_left_by_base
@@ -213,13 +213,11 @@ def decide_twins(
         name = effects[labels[best]]
         own = [label for label in labels if effects[label] == name]
         matters = sum(float(evidence[label].matters[twin]) for label in own)
-        of = {
-            "lead": float(np.log(_BEYOND_DOUBT)), "share": 0.0, "stays": 1.0, "seen": 0.0, "beside": 0.0,
-            "gauge": float(gauge[labels[best]]), "inclusion": compute_log_odds(matters),
-            "spread": min(float(evidence[labels[best]].spread[twin]), 1.0),
-        }  # fmt: skip
+        spread = float(evidence[labels[best]].spread[twin])
+        sure = Inclusion(matters, matters, matters, spread, 1.0, 0.0, 1.0)
+        of = make_evidence(sure, lead=_BEYOND_DOUBT, gauge=bool(gauge[labels[best]]))
         tried = sum(float(evidence[label].likely[twin]) for label in own) >= LIKELY
-        is_named = tried and chances.matters(of) * matters >= EVEN_ODDS
+        is_named = tried and compute_chance_to_matter(of, chances) >= EVEN_ODDS
         named.append(name if is_named else "")
         listed.append(name if is_named or (tried and chances.present(of) >= LISTED) else "")
     return TwinVerdict(tuple(named), tuple(listed))

@@ -176,6 +176,8 @@ class Effort:
 
 #: For what is looked at on the way.
 QUICK = Effort(chains=2, sweeps=30, draws=150, rounds=2)
+#: For an estimate of what is left of a relation.
+_ON_THE_WAY = Effort(chains=2, sweeps=15, draws=60)
 
 
 def compute_posterior(
@@ -200,8 +202,46 @@ def compute_posterior(
         effort: how thoroughly it is sampled.
     """
     prior, effort = Prior(), effort or Effort()
-    forms = _group(columns)
-    base = statistics.base
+    places = _prepare_places(columns, apart)
+    trifle = list_trifles(columns)
+    inside = slice(statistics.base, None)
+    counts = np.maximum(statistics.rows, 1.0)
+    level = np.maximum(statistics.fitted / counts, prior.floor)
+    for remaining in reversed(range(effort.rounds)):
+        last = not remaining
+        system = make_normal_system(statistics, tolerances, level, trifle)
+        whole, pull = system.whole, system.pull
+        solved = np.linalg.solve(system.regular, np.column_stack([whole[:, inside], pull]))
+        precision = np.ascontiguousarray(whole[inside, inside] - whole[inside] @ solved[:, :-1])
+        pulled = pull[inside] - whole[inside] @ solved[:, -1]
+        taken, sizes = _sample(places, precision, pulled, effort if last else _ON_THE_WAY)
+        mean = sizes.mean(axis=0)
+        everything = solved[:, -1] - solved[:, :-1] @ mean
+        everything[inside] += mean
+        if last:
+            break
+        left = statistics.squares + 2.0 * statistics.pulls @ everything
+        left += np.einsum("i,kij,j->k", everything, statistics.products, everything)
+        level = np.maximum(left / counts, prior.floor)
+    own = np.maximum(np.diag(precision), 1e-12)
+    mean = sizes.mean(axis=0)
+    gain = 0.5 * (pulled - precision @ mean + own * mean) ** 2 / own
+    return _as_posterior(statistics, places.forms, taken, sizes, level, gain)
+
+
+@dataclass(frozen=True)
+class _Places:
+    """What may take a place, before any data."""
+
+    forms: _Forms
+    odds: Array
+    excludes: NDArray[np.bool_]
+    one_sided: NDArray[np.bool_]
+    as_fitted: Ints
+
+
+def _prepare_places(columns: Sequence[CandidateColumn], apart: Collection[tuple[str, str]]) -> _Places:
+    prior, forms = Prior(), _group(columns)
     effects = forms.effects
     shared = {e: effects.count(e) for e in effects}
     per_form = np.bincount(forms.owner, minlength=len(forms.labels))
@@ -216,43 +256,39 @@ def compute_posterior(
         if one in forms.labels and other in forms.labels:
             excludes[forms.labels.index(one), forms.labels.index(other)] = True
     one_sided = np.array([not c.two_sided for c in columns])
-    trifle = list_trifles(columns)
-    inside = slice(base, None)
-    counts = np.maximum(statistics.rows, 1.0)
-    level = np.maximum(statistics.fitted / counts, prior.floor)
-    widths, odds_of = np.array(prior.large), np.log(prior.widths)
-    none = np.full(prior.places, -1)
-    as_fitted = none.copy()
+    as_fitted = np.full(prior.places, -1)
     present = np.flatnonzero(forms.number == OF_MODEL)[: prior.places]
     as_fitted[: len(present)] = present
-    for remaining in reversed(range(effort.rounds)):
-        last = not remaining
-        system = make_normal_system(statistics, tolerances, level, trifle)
-        whole, pull = system.whole, system.pull
-        solved = np.linalg.solve(system.regular, np.column_stack([whole[:, inside], pull]))
-        precision = np.ascontiguousarray(whole[inside, inside] - whole[inside] @ solved[:, :-1])
-        pulled = pull[inside] - whole[inside] @ solved[:, -1]
-        chains, sweeps = (effort.chains, effort.sweeps) if last else (2, 15)
-        visited = [
-            sample_places(
-                precision, pulled, forms.columns, forms.length, forms.owner, excludes, odds, widths, odds_of, one_sided,
-                as_fitted if chain % 2 == 0 else none, sweeps, chain,
-            )
-            for chain in range(chains)
-        ]  # fmt: skip
-        taken, sizes = _draw(precision, pulled, forms, widths, one_sided, visited, effort.draws if last else 60)
-        mean = sizes.mean(axis=0)
-        everything = solved[:, -1] - solved[:, :-1] @ mean
-        everything[inside] += mean
-        if last:
-            break
-        left = statistics.squares + 2.0 * statistics.pulls @ everything
-        left += np.einsum("i,kij,j->k", everything, statistics.products, everything)
-        level = np.maximum(left / counts, prior.floor)
-    own = np.maximum(np.diag(precision), 1e-12)
-    mean = sizes.mean(axis=0)
-    gain = 0.5 * (pulled - precision @ mean + own * mean) ** 2 / own
-    return _as_posterior(statistics, forms, taken, sizes, level, gain)
+    return _Places(forms, odds, excludes, one_sided, as_fitted)
+
+
+def sample_large_sizes(
+    precision: Array, pulled: Array, columns: Sequence[CandidateColumn], apart: Collection[tuple[str, str]] = ()
+) -> Array:
+    """Sample the sizes (n, K) of what is more than a trifle; 0 where a column is none [limits].
+
+    Args:
+        precision: (K, K) that data give of the sizes of all columns, numbers and trifles integrated out.
+        pulled: (K,) pull of the data on them.
+        columns: of the candidates, in units of materiality.
+        apart: labels of terms that cannot be in one model, in both orders.
+    """
+    return _sample(_prepare_places(columns, apart), np.ascontiguousarray(precision), pulled, Effort())[1]
+
+
+def _sample(places: _Places, precision: Array, pulled: Array, effort: Effort) -> tuple[Ints, Array]:
+    """Return forms of the places (n, p), and sizes (n, K)."""
+    prior, forms = Prior(), places.forms
+    widths, odds_of = np.array(prior.large), np.log(prior.widths)
+    none = np.full(prior.places, -1)
+    visited = [
+        sample_places(
+            precision, pulled, forms.columns, forms.length, forms.owner, places.excludes, places.odds, widths, odds_of,
+            places.one_sided, places.as_fitted if chain % 2 == 0 else none, effort.sweeps, chain,
+        )
+        for chain in range(effort.chains)
+    ]  # fmt: skip
+    return _draw(precision, pulled, forms, widths, places.one_sided, visited, effort.draws)
 
 
 def list_trifles(columns: Sequence[Competing]) -> Array:

@@ -11,14 +11,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.special import expit
 
 from slipwise.arrays import Array
 from slipwise.evidence.calibration import load_calibration
-from slipwise.evidence.decision import EVEN_ODDS, LISTED
+from slipwise.evidence.decision import EVEN_ODDS, LISTED, compute_chance_to_matter
 from slipwise.jobs.parallel import on_every_core
 from slipwise.selection.columns import OF_MODEL
-from slipwise.selection.inclusion import Inclusion, compute_inclusions
+from slipwise.selection.inclusion import compute_inclusions, make_evidence
 from slipwise.selection.posterior import Posterior
 from slipwise.selection.proposals import LIKELY, compute_chances_of_large
 from slipwise.selection.twins import compute_posterior_of_twin, make_twin
@@ -29,6 +28,8 @@ from slipwise.short_repr import short_repr
 TWINS = 16
 #: Effects of a twin of which it is decided whether they are named: more are never likely.
 _MOST = 12
+#: No likelihood leads by more [standard errors].
+_SUREST = 30.0
 
 
 @short_repr
@@ -114,28 +115,13 @@ def decide_what_is_said(
         if name in present or likely[name] < LIKELY:
             continue
         of = inclusions[name]
-        evidence = _evidence(of, of.size * strongest[name] ** 0.5, gauge=name in gauges)
-        named = chances.matters(evidence) * float(expit(evidence["inclusion"])) >= EVEN_ODDS
+        errors = of.size * strongest[name] ** 0.5  # of noise, that tell it from none
+        # the likelihood of its samples leads by half of that, in standard errors of its own
+        evidence = make_evidence(of, lead=min(0.5 * errors, _SUREST), gauge=name in gauges)
+        named = compute_chance_to_matter(evidence, chances) >= EVEN_ODDS
         if named or chances.present(evidence) >= LISTED:
             out.append((named, of.size, name))
     return tuple(name for _, _, name in sorted(out, reverse=True))
-
-
-def _evidence(of: Inclusion, errors: float, *, gauge: bool) -> dict[str, float]:
-    """Return the evidence of an effect that so many standard errors of noise tell from none.
-
-    The likelihood of its samples then leads by half of that, in standard errors of its own.
-    """
-    return {
-        "lead": float(np.log(np.clip(0.5 * errors, 0.1, 30.0))),
-        "share": 0.0,
-        "stays": of.stays,
-        "gauge": float(gauge),
-        "inclusion": of.log_odds,
-        "spread": min(of.spread, 1.0),
-        "seen": float(np.log(max(of.seen, 1e-2))),
-        "beside": 0.0,
-    }
 
 
 def _compute_shown(weighed: WeighedModel) -> Array:

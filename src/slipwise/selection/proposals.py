@@ -60,12 +60,14 @@ class ProposedModel:
         linearisation: the last one.
         posterior: over what is in its model and beside it.
         units: (label, strength) of a candidate -> what some size of it moves.
+        apart: labels of terms that cannot be in one model, in both orders.
     """
 
     origin: Linearisation
     linearisation: Linearisation
     posterior: Posterior
     units: Mapping[tuple[str, str], Moved]
+    apart: frozenset[tuple[str, str]]
 
     @property
     def hypothesis(self) -> Hypothesis:
@@ -88,7 +90,8 @@ def propose(base: BaseFit, terms: Sequence[Term], limits: Materiality) -> Propos
     most = find_runs_of_most(raw, rows)
     units = compute_units(base, terms, whole, limits, most)
     here = linearise(base, origin, rows, bring_to_units(raw, units, rows), limits)
-    here, posterior = _weighed(base, terms, here, limits, most)
+    apart = frozenset(list_exclusions(terms))
+    here, posterior = _weighed(base, terms, here, limits, most, apart)
     first = here
     for _ in range(_ROUNDS if base.objective.balanced else _STEPS):
         starts = _leave_one_chord(here, posterior, list_likely(here, terms, posterior))
@@ -96,8 +99,8 @@ def propose(base: BaseFit, terms: Sequence[Term], limits: Materiality) -> Propos
             break
         found = _refitted(base, [t for t in terms if t.label in starts], starts) if starts else origin
         here = _linearised_again(base, here, found, terms, units, posterior, limits)
-        here, posterior = _weighed(base, terms, here, limits, most)
-    return ProposedModel(first, here, posterior, units)
+        here, posterior = _weighed(base, terms, here, limits, most, apart)
+    return ProposedModel(first, here, posterior, units, apart)
 
 
 def compute_chances_of_large(posterior: Posterior) -> Array:
@@ -126,9 +129,9 @@ def _weighed(
     here: Linearisation,
     limits: Materiality,
     most: Mapping[str, int],
+    apart: frozenset[tuple[str, str]],
 ) -> tuple[Linearisation, Posterior]:
     """Compute the posterior, with units of what may matter replayed at the size and form that it says."""
-    apart = list_exclusions(terms)
     posterior = compute_posterior(here.statistics, here.columns, here.tolerances, apart, QUICK)
     of = {t.label: t for t in terms}
     for finer in _FINER:

@@ -11,7 +11,7 @@ from slipwise.evidence.score import FLOOR, compute_score
 from slipwise.model import Model
 from slipwise.preparation.prepared import Prepared, fit_prepared
 from slipwise.relations.parameters import Term
-from slipwise.selection.candidates import list_candidates, list_exclusions
+from slipwise.selection.candidates import list_candidates
 from slipwise.selection.explained_alone import ExplainedAlone, explain_by_statistics
 from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, polish, refit, refit_for_report
 from slipwise.selection.inclusion import Inclusion, compute_inclusions
@@ -122,9 +122,7 @@ def _judge(base: BaseFit, proposed: _Proposed, tell: Callable[[str, float], None
     origin = make_base_hypothesis(base)
     alone = _explain_alone(proposal, candidates)
     unexplained = compute_unexplained(proposal)
-    weighed = keep_weighed_model(
-        proposal.linearisation, proposal.posterior, proposal.units, frozenset(list_exclusions(candidates))
-    )
+    weighed = keep_weighed_model(proposal.linearisation, proposal.posterior, proposal.units, proposal.apart)
     inclusions = _inclusions(proposal)
     state = Search(base, proposed.cannot, candidates, (), (origin,), alone, inclusions, unexplained, weighed=weighed)
     if found is not None:

@@ -23,6 +23,21 @@ from slipwise.short_repr import short_repr
 _STRETCHES, DRAWS = 16, 20
 
 
+@dataclass(frozen=True)
+class BaseNumber:
+    """A number that is fitted whatever is missing.
+
+    Attributes:
+        key: "rig.mass", "shear_rate.rate" ...
+        value: as it was fitted [SI].
+        scale: one unit of its slope in the products [SI].
+    """
+
+    key: str
+    value: float
+    scale: float
+
+
 @short_repr
 @dataclass(frozen=True)
 class WeighedModel:
@@ -38,6 +53,7 @@ class WeighedModel:
             without them differs from that of the fit [limits].
         noise: (d, r, k) products of columns with the residual of the fit, drawn again.
         units: (label, strength) of a candidate -> what some size of it moves.
+        numbers: that stand before the columns in the products.
     """
 
     statistics: Statistics
@@ -48,6 +64,7 @@ class WeighedModel:
     own: Array
     noise: Array
     units: Mapping[tuple[str, str], Moved]
+    numbers: tuple[BaseNumber, ...]
 
     @cached_property
     def left_by_base(self) -> Array:
@@ -67,7 +84,7 @@ def keep_weighed_model(
         here: the last linearisation.
         posterior: at it.
         units: of `compute_units`.
-        apart: of `list_exclusions`.
+        apart: labels of terms that cannot be in one model, in both orders.
     """
     own = np.zeros(here.statistics.products.shape[1])
     own[len(own) - len(here.own) :] = [1.0 / c.unit for c in here.own]
@@ -78,7 +95,9 @@ def keep_weighed_model(
         at = np.flatnonzero(here.rows.relation == k)
         noise[:, k] = (signs[:, at] * here.fitted[at]).astype(np.float32) @ every[at]
     bare = tuple(replace(c, column=np.zeros(0, np.float32)) for c in here.columns)
-    return WeighedModel(here.statistics, bare, here.tolerances, apart, posterior, own, noise, units)
+    solution = here.hypothesis.solution
+    numbers = tuple(BaseNumber(f.key, solution.values[f.key], f.scale) for f in here.numbers)
+    return WeighedModel(here.statistics, bare, here.tolerances, apart, posterior, own, noise, units, numbers)
 
 
 def _draw_signs(rows: AveragedRows) -> Array:

@@ -10,7 +10,7 @@ def check_effect(effect: Effect | Path | str) -> tuple[str, ...]:
     """Hold an effect to what every effect of the catalogue keeps; a test of one's own package calls it.
 
     It reads the file, and then lets the effect answer at component level over all its bounds, on Bridge 1: answers are
-    finite, friction never drives, the compiled engine answers as the plain one, nothing changes at the neutral value,
+    finite, the compiled engine answers as the plain one, nothing changes at the neutral value,
     and at the typical size only what its hooks and `moves` say. It takes a few seconds.
 
         from slipwise.testing import check_effect

@@ -18,6 +18,8 @@ from slipwise.session.state import SessionState, as_json
 from slipwise.view.files import save_page
 from slipwise.view.pages.compare_page import compare_page
 from slipwise.view.pages.diagnosis_page import diagnosis_page
+from slipwise.view.pages.why_not_section import why_not_anchor
+from slipwise.view.words.why_not_words import why_not_words
 
 #: Pages that the workbench writes, beside its snapshot.
 REPORT, DIAGNOSIS = "report.html", "diagnosis.html"
@@ -107,7 +109,11 @@ def _explain(task: Task, tell: Progress) -> dict[str, Any]:
     found = diagnose_with_law(task.session.ready.prepared, model, progress=lambda w, s: tell(w, 0.9 * s))
     tell("drawing the report", 0.9)
     save_page(diagnosis_page(found, found.ladder()), task.session.place.session_folder() / DIAGNOSIS)
-    return {**explained(found, task.state.labels), "file": DIAGNOSIS}
+    rivals = [
+        {"effect": one.effect, "words": why_not_words(one), "file": f"{DIAGNOSIS}#{why_not_anchor(one.effect)}"}
+        for one in found.explain_rivals()
+    ]
+    return {**explained(found, task.state.labels), "file": DIAGNOSIS, "rivals": rivals}
 
 
 def _discover(task: Task, tell: Progress) -> dict[str, Any]:

@@ -44,6 +44,7 @@ def test_several_campaigns_get_a_folder_each_a_table_and_a_page_that_leads_to_th
     code, out, _ = slipwise("diagnose", home / "a", home / "b", "--out", home / "o", "--workers", "1")
     assert code == 0
     assert "common to all: nothing" in out and "differs: run_in: has it: b; has it not: a" in out
+    assert "no law over all: one law over several specimens needs two campaigns at least; none was given" in out
     for name in ("a", "b"):
         assert json.loads((home / "o" / name / "diagnosis.json").read_text())["schema"] == 2
         assert f'href="{name}/report.html"' in (home / "o" / "index.html").read_text()

@@ -9,6 +9,7 @@ import typer
 
 from slipwise.cli import app
 from slipwise.effects import PORTS, load_effect, skeleton
+from slipwise.testing.checks import check_rivals
 
 
 @pytest.fixture
@@ -42,6 +43,7 @@ def test_every_port_can_be_begun_and_shown(slipwise, here: Path, port: str) -> N
     assert code == 0 and out.startswith("wrote './my effects/mine.py'")
     code, out, _ = slipwise(*commands(out)[0][1:])
     assert code == 0 and f"Acts on port '{port}'" in out and skeleton("mine", port).title in out
+    check_rivals(load_effect(here / "my effects" / "mine.py"))
 
 
 def test_a_file_that_exists_is_left_alone(slipwise, here: Path) -> None:

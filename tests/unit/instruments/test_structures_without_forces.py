@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from four_pads import describe_four_pads
 from slipwise.campaign import Campaign, load_campaign
 from slipwise.campaign.draft import init_campaign
 from slipwise.instruments.checks import Checks, check_instruments
@@ -14,18 +15,9 @@ from slipwise.signals.shift import shift
 from unit.campaign.shear_building import MASSES, SHARES, STIFFNESSES, channels
 
 SHARED = Path(__file__).parents[4] / "shared" / "building"
-SPECIMEN = """
-mass = "12 t"
-box = ["4 m", "3 m", "0.5 m"]
-centre_height = "0.1 m"
-pad = { radius = "100 mm", stiffness = "200 kN/mm" }
-[pads]
-A = { x = "1.8 m", y = "1.3 m" }
-B = { x = "-1.8 m", y = "1.3 m" }
-C = { x = "1.8 m", y = "-1.3 m" }
-D = { x = "-1.8 m", y = "-1.3 m" }
+SPECIMEN = f"""{describe_four_pads(centre_height="0.1 m")}
 [buffers]
-1 = { x = "0 m", y = "0 m", stiffness = "0.4 kN/mm" }
+1 = {{ x = "0 m", y = "0 m", stiffness = "0.4 kN/mm" }}
 """
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from four_pads import describe_four_pads
 from slipwise.errors import InputError, SettingError, UnknownNameError
 from slipwise.model import base_model, use
 from slipwise.rig import Specimen, load_specimen
@@ -14,20 +15,10 @@ from slipwise.rig.places import Buffer
 from slipwise.simulation.replay import replay
 from slipwise.view.figures.loop_pictures import loops_figure
 
-TEXT = """
-mass = "12 t"
-box = ["4 m", "3 m", "0.5 m"]
-centre_height = "0.4 m"
-friction = "none"
-pad = { radius = "100 mm", stiffness = "200 kN/mm" }
-[pads]
-A = { x = "1.8 m", y = "1.3 m" }
-B = { x = "-1.8 m", y = "1.3 m" }
-C = { x = "1.8 m", y = "-1.3 m" }
-D = { x = "-1.8 m", y = "-1.3 m" }
+TEXT = f"""{describe_four_pads(more='friction = "none"')}
 [buffers]
-1 = { x = "1.8 m", y = "0 m", stiffness = "60 N/mm" }
-2 = { x = "-1.8 m", y = "0 m", stiffness = "60 N/mm" }
+1 = {{ x = "1.8 m", y = "0 m", stiffness = "60 N/mm" }}
+2 = {{ x = "-1.8 m", y = "0 m", stiffness = "60 N/mm" }}
 """
 QUAKE = "quake:seed=2,peak=0.3g,f=1Hz,strong=4s"
 

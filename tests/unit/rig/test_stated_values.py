@@ -3,25 +3,13 @@
 import pytest
 
 import slipwise as sw
+from four_pads import describe_four_pads
 from slipwise.errors import SettingError
-
-SPECIMEN = """
-mass = "12 t"
-box = ["4 m", "3 m", "0.5 m"]
-centre_height = "0.4 m"
-{more}
-pad = {{ radius = "25 mm", stiffness = "200 kN/mm" }}
-[pads]
-A = {{ x = "1.8 m", y = "1.3 m" }}
-B = {{ x = "-1.8 m", y = "1.3 m" }}
-C = {{ x = "1.8 m", y = "-1.3 m" }}
-D = {{ x = "-1.8 m", y = "-1.3 m" }}
-"""
 
 
 def stated(tmp_path, more: str):
     path = tmp_path / "specimen.toml"
-    path.write_text(SPECIMEN.format(more=more))
+    path.write_text(describe_four_pads(radius="25 mm", more=more))
     return path
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from urllib.parse import quote
 
+from slipwise.specimens.result import SpecimensReport
 from slipwise.studies.campaigns import Compared, Outcome
 from slipwise.view.pages.html import Html, Section, bullets, details, escape, page, paragraph, table
 from slipwise.view.words.campaign_tables import (
@@ -13,12 +14,21 @@ from slipwise.view.words.campaign_tables import (
     size_words,
     title,
 )
+from slipwise.view.words.specimen_words import effect_rows, effect_sentences, not_compared_words, number_rows
 
 _NOTHING = "Nothing."
 
 
-def campaigns_page(outcomes: Sequence[Outcome], found: Compared) -> str:
+def campaigns_page(
+    outcomes: Sequence[Outcome], found: Compared, together: SpecimensReport | None = None, reasons: Sequence[str] = ()
+) -> str:
     """Make the page, to be put beside the folders of the campaigns.
+
+    Args:
+        outcomes: of the campaigns.
+        found: what differs between them.
+        together: one law over all of them.
+        reasons: why a campaign is left out of that, or there is none.
 
     Returns:
         The text of a self-contained HTML file.
@@ -37,9 +47,23 @@ def campaigns_page(outcomes: Sequence[Outcome], found: Compared) -> str:
                 details(f"All {len(every)} numbers that two campaigns have", [bullets(every)]),
             ],
         ),
+        *([Section("One law over all specimens", _together(together, reasons))] if together or reasons else []),
         Section("Base parameters", [_base(outcome) for outcome in outcomes if not outcome.failed]),
     ]
     return page(f"Diagnosis of {len(outcomes)} campaigns", sections)
+
+
+def _together(found: SpecimensReport | None, reasons: Sequence[str]) -> list[Html]:
+    parts = [bullets(reasons)] if reasons else []
+    if found is None:
+        return parts
+    sentences = [*effect_sentences(found), *not_compared_words(found)]
+    parts += [paragraph(found.sentence), *([bullets(sentences)] if sentences else [])]
+    if rows := effect_rows(found):
+        parts.append(table(rows, "Effects over all specimens"))
+    if rows := number_rows(found):
+        parts.append(table(rows, "Numbers of the law: mean over specimens, and spread between them (95 %)"))
+    return parts
 
 
 def _link(outcome: Outcome) -> Html:

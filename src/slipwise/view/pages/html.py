@@ -152,9 +152,16 @@ def callout(title: str, words: str, tone: Tone = "plain") -> Html:
     return Html(f'<aside class="{_tone(tone)}"><strong>{_inline(title)}</strong> {_inline(words)}</aside>')
 
 
-def details(title: str, pieces: Sequence[Piece]) -> Html:
-    """Make a part that opens on a click; when printed it is open."""
-    return Html(f"<details><summary>{_inline(title)}</summary>{_join(pieces)}</details>")
+def details(title: str, pieces: Sequence[Piece], anchor: str = "") -> Html:
+    """Make a part that opens on a click; when printed it is open.
+
+    Args:
+        title: of the part.
+        pieces: in it.
+        anchor: its name in an address; a browser opens the part for what is inside of it.
+    """
+    inside = f'<div id="{escape(anchor)}">{_join(pieces)}</div>' if anchor else _join(pieces)
+    return Html(f"<details><summary>{_inline(title)}</summary>{inside}</details>")
 
 
 def _tone(tone: str) -> str:

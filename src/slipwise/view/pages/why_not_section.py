@@ -59,8 +59,13 @@ def why_not_pieces(found: Diagnosis) -> list[Piece]:
         words = why_not_words(one)
         if one.effect in found.limits:
             words.append(limit_sentence(known.get(one.effect), found.limits[one.effect].as_json()))
-        out.append(details(f"Why not {one.effect}?", [bullets(words), *_pieces(one)]))
+        out.append(details(f"Why not {one.effect}?", [bullets(words), *_pieces(one)], why_not_anchor(one.effect)))
     return out
+
+
+def why_not_anchor(effect: str) -> str:
+    """Return the name of the part of a page that says why an effect was not named."""
+    return f"why-not-{effect}"
 
 
 def _pieces(found: WhyNot) -> list[Piece]:

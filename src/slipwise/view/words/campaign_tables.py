@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from slipwise.effects import catalogue
+from slipwise.specimens.result import SpecimensReport
 from slipwise.studies.campaigns import Compared, EffectDifference, Outcome, Scored, ValueChange, rates
 from slipwise.units import convert
 from slipwise.view.words.diagnosis_words import floors
@@ -70,7 +71,7 @@ def compared_sentences(found: Compared) -> tuple[list[str], list[str]]:
 
 def change_words(of: ValueChange) -> str:
     """Say how a number changed from one campaign to another."""
-    unit = _shown_unit(of.key, of.unit)
+    unit = shown_unit(of.key, of.unit)
     before, after = (f"{convert(value, of.unit, unit):.4g}" for value in (of.before, of.after))
     errors = "" if of.errors is None else f", by {of.errors:.1f} standard errors"
     shown = "" if unit == "1" else f" {unit}"
@@ -93,8 +94,10 @@ def flat_rows(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
     return rows
 
 
-def summary_json(outcomes: Sequence[Outcome], found: Compared) -> dict[str, Any]:
-    """Return the content of summary.json."""
+def summary_json(
+    outcomes: Sequence[Outcome], found: Compared, together: SpecimensReport | None = None
+) -> dict[str, Any]:
+    """Return the content of summary.json, with the law over all where there is one."""
     changes = [
         {"key": c.key, "first": c.first, "other": c.other, "before": c.before, "after": c.after, "unit": c.unit,
          "standard_errors": None if c.errors is None else round(c.errors, 2), "changed": c.significant}
@@ -106,12 +109,13 @@ def summary_json(outcomes: Sequence[Outcome], found: Compared) -> dict[str, Any]
         "common": list(found.common),
         "differs": [{"effect": d.effect, "has": dict(d.has)} for d in found.differs],
         "changes": changes,
+        "specimens": None if together is None else together.as_json(),
     }
 
 
 def size_words(key: str, entry: Mapping[str, Any]) -> str:
     """Write a fitted number with its interval, in the unit in which people read it."""
-    unit = _shown_unit(key, entry["unit"])
+    unit = shown_unit(key, entry["unit"])
     value, low, high = (
         "" if entry[end] is None else f"{convert(entry[end], entry['unit'], unit):.3g}"
         for end in ("value", "low", "high")
@@ -154,7 +158,7 @@ def _difference(of: EffectDifference) -> str:
     return f"{of.effect}: {'; '.join(parts)}"
 
 
-def _shown_unit(key: str, unit: str) -> str:
+def shown_unit(key: str, unit: str) -> str:
     """Return the unit in which a number is read: the rig's, the parameter's own, or the usual one."""
     if key in CALLED:
         return CALLED[key][1]

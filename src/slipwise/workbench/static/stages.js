@@ -29,7 +29,9 @@ export function drawStages(campaign, state, ask) {
       button("locate", "Look again")]],
     ["What is missing", explain ? (explain.effects.length ? "here" : "done") : "", [
       explain ? explain.words + stale(explain, labels) : "The catalogue has not been searched yet; that takes a minute or two.",
-      ...(explain?.file ? [link(explain.file, "The diagnosis, in full")] : []), button("explain", "Find what is missing"),
+      ...(explain?.file ? [link(explain.file, "The diagnosis, in full")] : []),
+      ...(explain?.rivals ?? []).map((r) => make("details", {}, make("summary", { id: `why-not-${r.effect}` }, `Why not ${r.effect}?`),
+        ...r.words.map((w) => make("p", {}, w)), link(r.file, "What contradicts it, drawn"))), button("explain", "Find what is missing"),
       ...(discover ? [make("p", {}, discover.words + stale(discover, labels))] : []),
       ...(discover?.files?.length ? [make("button", { id: "do-law", class: "edits", onclick: () => ask({ do: "law" }) }, "Add this law")] : []),
       ...(explain ? [button("discover", "Find a law for what is unknown")] : [])]],

@@ -50,7 +50,7 @@ def whole(record, tmp_path_factory) -> str:
         [
             Section("What is missing", [HOSTILE, table(rows, HOSTILE, marked=[0]), callout(HOSTILE, HOSTILE, "warn")]),
             Section("Loops", [figure(loops_figure(record), HOSTILE), figure(png, HOSTILE, HOSTILE)]),
-            Section("Loops", [details(HOSTILE, [bullets([HOSTILE]), paragraph(HOSTILE)])]),
+            Section("Loops", [details(HOSTILE, [bullets([HOSTILE]), paragraph(HOSTILE)], HOSTILE)]),
             Section(HOSTILE, []),
             Section("***", ["no letter in the title"]),
         ],
