@@ -240,7 +240,7 @@ class _Places:
     as_fitted: Ints
 
 
-def _prepare_places(columns: Sequence[CandidateColumn], apart: Collection[tuple[str, str]]) -> _Places:
+def _prepare_places(columns: Sequence[Competing], apart: Collection[tuple[str, str]]) -> _Places:
     prior, forms = Prior(), _group(columns)
     effects = forms.effects
     shared = {e: effects.count(e) for e in effects}
@@ -263,7 +263,7 @@ def _prepare_places(columns: Sequence[CandidateColumn], apart: Collection[tuple[
 
 
 def sample_large_sizes(
-    precision: Array, pulled: Array, columns: Sequence[CandidateColumn], apart: Collection[tuple[str, str]] = ()
+    precision: Array, pulled: Array, columns: Sequence[Competing], apart: Collection[tuple[str, str]] = ()
 ) -> Array:
     """Sample the sizes (n, K) of what is more than a trifle; 0 where a column is none [limits].
 
