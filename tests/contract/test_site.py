@@ -37,7 +37,7 @@ def test_cells_of_a_wide_table_carry_the_head_of_their_column(site: ModuleType) 
     lines = site.with_heads(WIDE).splitlines()
     assert lines[2] == (
         '| `a \\| b` { data-head="field" } | a bar in code, and &#123;braces} { data-head="meaning" } | '
-        '| 1 { data-head="default" } |'
+        ' | 1 { data-head="default" } |'
     )
     assert [*lines[:2], *lines[3:]] == [*WIDE.splitlines()[:2], *WIDE.splitlines()[3:]]
 
