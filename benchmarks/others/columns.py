@@ -197,7 +197,7 @@ def answer_all(folder: Path, tool: str, choose: Callable[[Problem], tuple[list[s
 
 
 def answer_folders(folder: Path, tool: str, choose: Callable[[Path], tuple[list[str], float | None]]) -> None:
-    """Write verdicts of one tool on every campaign of a folder, to FOLDER/verdicts_TOOL/NAME.json, where none is yet."""
+    """Write verdicts of one tool on the campaigns that have none: FOLDER/verdicts_TOOL/NAME.json."""
     out = folder / f"verdicts_{tool}"
     out.mkdir(exist_ok=True)
     found = [path for path in (folder / "campaigns").iterdir() if path.is_dir()]
