@@ -197,15 +197,18 @@ def answer_all(folder: Path, tool: str, choose: Callable[[Problem], tuple[list[s
 
 
 def answer_folders(folder: Path, tool: str, choose: Callable[[Path], tuple[list[str], float | None]]) -> None:
-    """Write verdicts of one tool on every campaign of a folder, to FOLDER/verdicts_TOOL/NAME.json."""
+    """Write verdicts of one tool on the campaigns that have none: FOLDER/verdicts_TOOL/NAME.json."""
     out = folder / f"verdicts_{tool}"
     out.mkdir(exist_ok=True)
     found = [path for path in (folder / "campaigns").iterdir() if path.is_dir()]
     for campaign in sorted(found, key=lambda path: path.name.split("-")[::-1]):  # one of every family, then again
+        path = out / f"{campaign.name}.json"
+        if path.exists():
+            continue
         try:
             effects, chance = choose(campaign)
             said = {"verdict": "named" if effects else "complete", "effects": effects, "probability": chance}
         except Exception as error:  # a tool that stops has given no verdict, which is counted as wrong
             said = {"verdict": "failed", "effects": [], "words": f"{type(error).__name__}: {error}"}
-        (out / f"{campaign.name}.json").write_text(json.dumps(said) + "\n", encoding="utf-8")
+        path.write_text(json.dumps(said) + "\n", encoding="utf-8")
         print(campaign.name, said, flush=True)

@@ -21,7 +21,8 @@ import numpy as np
 from columns import MATERIAL, answer_folders, read_runs
 from mujoco import sysid
 
-STEP = 1.0e-3
+#: Least step of a simulation, and the longest, of a slider that is moved slowly [s].
+STEP, SLOW_STEP = 1.0e-3, 1.0e-2
 #: Force of a slider whose friction is 1 [N]: large beside the inertia of the 1 kg that the servo moves.
 FORCE = 1.0e3
 MODEL = """<mujoco><option timestep="{step}" integrator="implicitfast" gravity="0 0 0"/><worldbody>
@@ -64,8 +65,10 @@ def sequences(folder: Path) -> tuple[sysid.ModelSequences, bool]:
     """Give the fitted runs of a campaign as mujoco.sysid reads them, and whether it is a rig."""
     runs, mass = read_runs(folder)
     rig = mass > 0.0
+    sampled = float(np.nanmedian(np.diff(runs[0]["time"])))
+    step = STEP if rig else float(np.clip(0.5 * sampled, STEP, SLOW_STEP))
     text = MODEL.format(
-        step=STEP,
+        step=step,
         actuator='<motor name="drive" joint="slide"/>' if rig
         else '<position name="drive" joint="slide" kp="1e6" kv="2e3"/>',
         sensor='<jointpos name="out" joint="slide"/>' if rig else '<actuatorfrc name="out" actuator="drive"/>',
@@ -76,7 +79,7 @@ def sequences(folder: Path) -> tuple[sysid.ModelSequences, bool]:
     for run in runs:
         good = np.isfinite(run["time"]) & np.isfinite(run["slip_x"])
         time = run["time"][good] - run["time"][good][0]
-        steps = np.arange(0.0, time[-1], STEP)
+        steps = np.arange(0.0, time[-1], step)
         drive = -run["table_ax"] if rig else run["slip_x"]
         out = run["slip_x"] if rig else FORCE * run["pad_A_Fx"] / np.nanmean(run["pad_A_N"])
         drive, out = (np.interp(steps, time, np.nan_to_num(values[good])) for values in (drive, out))
