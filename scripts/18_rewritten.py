@@ -5,10 +5,10 @@
     python scripts/18_rewritten.py --out out/families --to out/rewritten --only clean sliders pendulums --count 1
     python scripts/18_rewritten.py --quick
 
-`tests/rewritten.py` lists the ways. Of each family `--count` campaigns are taken. Every verdict is one line of
-TO/rewritten.jsonl, and the same command goes on where it stopped. Printed are, for each way: of how many campaigns kind
-and names stay, the largest change of the probability where they do, and every campaign of which they do not. A zero of
-the slip that was put off may be named.
+`slipwise_benchmarks.rewritten` lists the ways. Of each family `--count` campaigns are taken. Every verdict is one line
+of TO/rewritten.jsonl, and the same command goes on where it stopped. Printed are, for each way: of how many campaigns
+kind and names stay, the largest change of the probability where they do, and every campaign of which they do not. A
+zero of the slip that was put off may be named.
 """
 
 import argparse

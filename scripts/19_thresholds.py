@@ -7,10 +7,10 @@
     python scripts/19_thresholds.py --update
     python scripts/19_thresholds.py --quick
 
-`tests/thresholds.py` says what is such a number, and how far it is moved. Each is made 1.3 and 0.7 times as large in a
-copy of the library, by which a process of its own diagnoses the campaigns: what is computed from the number moves with
-it. A verdict turns where its kind or its names are others, or where there is none any more. A number that nothing reads
-while a campaign is diagnosed is not moved there, for it turns nothing.
+`scripts/thresholds.py` says what is such a number, and how far it is moved. Each is made 1.3 and 0.7 times as large in
+a copy of the library, by which a process of its own diagnoses the campaigns: what is computed from the number moves
+with it. A verdict turns where its kind or its names are others, or where there is none any more. A number that nothing
+reads while a campaign is diagnosed is not moved there, for it turns nothing.
 
 Every verdict is one line of OUT/turned.jsonl, and the same command goes on where it stopped; when the code has changed,
 another OUT begins anew. `--store` writes what was counted so far into tests/thresholds.json, beside the words that name
