@@ -75,9 +75,10 @@ def diagnose(
     """Say which effect the model lacks, with a probability that means what it says.
 
     Of several campaigns (the same rig a year later, or several specimens), it also says what is common to all and what
-    differs, and fits one law over all whose sizes differ from specimen to specimen. Each is worked at on one core, with `--workers 1` one after another on all cores; one campaign alone always here, on all
-    cores. One that cannot be used is told in its row, and the exit code is 2. Called again, only what is new or changed
-    is diagnosed. The workers of a cluster must see the same folders.
+    differs, and fits one law over all whose sizes differ from specimen to specimen. Each is worked at on one core, with
+    `--workers 1` one after another on all cores; one campaign alone always here, on all cores. One that cannot be used
+    is told in its row, and the exit code is 2. Called again, only what is new or changed is diagnosed. The workers of a
+    cluster must see the same folders.
 
     Example: `slipwise diagnose campaigns/march --out out/march`
     """
