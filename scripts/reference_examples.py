@@ -113,11 +113,6 @@ meant.sentence
 shutil.copytree("my_campaign", "of_the_office")  # stands for the same runs as a program predicted them
 judged = sw.judge_prediction(campaign, "of_the_office")
 judged.sentence
-# %% judge_specimens, SpecimensReport (minutes)
-shutil.copytree("my_campaign", "another_specimen")  # stands for the same test of a second specimen
-specimens = [sw.specimens.make_specimen(sw.diagnose(f), f) for f in ("my_campaign", "another_specimen")]
-together = sw.judge_specimens(specimens)
-together.sentence
 # %% compare (minutes)
 comparison = sw.compare(campaign, system=False)
 # %% Comparison (minutes)
@@ -130,6 +125,10 @@ report.of("run", report.total)
 found = sw.diagnose(campaign, system=False)
 # %% Diagnosis (minutes)
 found.sentence, found.verdict.effects, found.verdict.probability
+# %% specimens, judge_specimens, SpecimensReport (minutes)
+# stands for the diagnoses of two specimens: each has a campaign of its own
+together = sw.judge_specimens([sw.specimens.make_specimen(found, name) for name in ("first", "second")])
+together.sentence, together.to_pandas()
 # %% add_law (minutes)
 found = sw.add_law(found)  # leaves a diagnosis as it is that names everything
 # %% ladder (minutes)

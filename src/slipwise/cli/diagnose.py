@@ -39,7 +39,7 @@ def diagnose(
         Path,
         typer.Option(
             help="Folder for diagnosis.json, report.html and the recording; of several campaigns, for a folder of each "
-            "with these, index.html, summary.json and summary.csv."
+            "with these, index.html, summary.json, summary.csv and specimens.json."
         ),
     ] = Path("out/diagnosis"),
     model: ModelFile = None,
@@ -74,10 +74,11 @@ def diagnose(
 ) -> None:
     """Say which effect the model lacks, with a probability that means what it says.
 
-    Of several campaigns (the same rig a year later), it also says what is common to all and what differs. Each is
-    worked at on one core, with `--workers 1` one after another on all cores; one campaign alone always here, on all
-    cores. One that cannot be used is told in its row, and the exit code is 2. Called again, only what is new or changed
-    is diagnosed. The workers of a cluster must see the same folders.
+    Of several campaigns (the same rig a year later, or several specimens), it also says what is common to all and what
+    differs, and fits one law over all whose sizes differ from specimen to specimen. Each is worked at on one core, with
+    `--workers 1` one after another on all cores; one campaign alone always here, on all cores. One that cannot be used
+    is told in its row, and the exit code is 2. Called again, only what is new or changed is diagnosed. The workers of a
+    cluster must see the same folders.
 
     Example: `slipwise diagnose campaigns/march --out out/march`
     """

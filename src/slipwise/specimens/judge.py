@@ -207,4 +207,4 @@ def _moved_numbers(of: SpecimenStatistics, law: SharedLaw, place: int) -> Array:
     base = len(of.numbers)
     change = law.sizes_of(place) - np.array([c.fitted if is_of_model(c) else 0.0 for c in of.columns])
     regular = of.whole[:base, :base] + np.diag(of.ridge[:base])
-    return -np.linalg.solve(regular, of.whole[:base, base:] @ change)
+    return np.asarray(-np.linalg.solve(regular, of.whole[:base, base:] @ change), float)

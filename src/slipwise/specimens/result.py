@@ -123,7 +123,8 @@ class SpecimensReport(Tabular):
         shared = [_told(e) for e in self.effects if e.of == SHARED and not e.faint]
         own = [f"{e.effect} of {e.specimen} ({_percent(e.probability)})" for e in self.effects if e.of == OWN]
         faint = [_told(e) for e in self.effects if e.of == SHARED and e.faint]
-        first = f"All {count} specimens have {_listed(shared)}" if shared else f"The {count} specimens share no effect"
+        none = f"The {count} specimens share no effect{' that shows' if faint else ''}"
+        first = f"All {count} specimens have {_listed(shared)}" if shared else none
         first += f"; of one specimen alone: {_listed(own)}" if own else ""
         return f"{first}; alike in all, but faint: {_listed(faint)}." if faint else f"{first}."
 

@@ -102,7 +102,9 @@ def test_a_rated_number_keeps_its_tolerance() -> None:
 def test_a_strength_of_one_sign_is_not_found_with_the_other() -> None:
     x = waves(2)
     columns = [column("effect0", x[:, 0], two_sided=False), column("effect1", x[:, 1])]
-    assert chance(posterior_of(noise() + 5.0 * x[:, 0], waves(1, 5), columns), "effect0") < 0.1
+    wrong = posterior_of(noise() + 5.0 * x[:, 0], waves(1, 5), columns)
+    assert chance(wrong, "effect0") < 0.1
+    assert np.mean(wrong.forms[:, 0] != -1) < 0.1  # nor does it take a place where it can explain nothing
     assert chance(posterior_of(noise() - 5.0 * x[:, 0], waves(1, 5), columns), "effect0") > 0.9
 
 
