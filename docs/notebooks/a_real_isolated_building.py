@@ -34,10 +34,10 @@ print("\n".join(line[:118] for line in draft.read_text().splitlines()))
 # and every force below is known relative to the mass only. Are the gauges right?
 
 # %%
-report = sw.audit(folder)
-for line in (*report.notes, *report.contradictions):
+checks = sw.audit(folder)
+for line in (*checks.report.notes, *checks.report.contradictions):
     print(line)
-report
+checks
 
 # %% [markdown]
 # How wrong is the linear layer, fitted to the two other earthquakes?

@@ -34,7 +34,7 @@ def listed(said: Said) -> set[str]:
 def may_be_named(answer: Answer) -> set[str]:
     """Give every name that is no accusation: near what is material, what stands for it, what tells a first thing."""
     near = {name for name, entry in answer["effects"].items() if entry["of_limit"] >= MAY_BE_NAMED}
-    near |= SHOWN_BY_SAMPLES & answer["details"].keys()
+    near |= SHOWN_BY_SAMPLES & answer.get("details", {}).keys()
     near |= {other for name in near for other in answer["alternatives"].get(name, ())}
     near |= {other for name in near for pair in SAME if name in pair for other in pair}
     return near.union(*(ALSO.get(one["kind"], set()) for one in answer["first"]))

@@ -85,10 +85,8 @@ EFFECT = Effect(
         Parameter("cover", "1", 1.0, 0.0, 1.0, None, "OpenSees FPBearingPTV: 1", "c: flux lacking where uncovered"),
         Parameter("remains", "1", 0.4, 0.0, 2.0, None, "Kumar et al. (2015)", "b: what stays however hot it gets"),
     ),
-    memory=(
-        *(f"heat_{i}" for i in range(TERMS)), "body", "temperature_rise",
-        *(f"{what}_{i}" for what in ("kept", "taken") for i in range(TERMS + 1)), "step", "cooling",
-    ),
+    memory=(*(f"heat_{i}" for i in range(TERMS)), "body", "temperature_rise",
+        *(f"{what}_{i}" for what in ("kept", "taken") for i in range(TERMS + 1)), "step", "cooling"),
     diagnosis=ForDiagnosis(
         component="pad friction",
         equation="mu *= k(T), T from the flux F V/A through 1/sqrt(t)",
