@@ -36,6 +36,7 @@ def discover(
     from slipwise.view.figures.figure_files import figures_into
     from slipwise.view.files import save_json, save_page
     from slipwise.view.pages.discovery_page import discovery_page
+    from slipwise.view.words.discovery_words import shape_lines
 
     sw.effects.check_name(name)  # not after minutes of search
     recording = can_record(recording)
@@ -58,9 +59,12 @@ def discover(
         return
     OUT.print(visible(found.sentence), markup=False, highlight=False)
     say_corrections(found.corrections)
+    for words in shape_lines(found):
+        say(words)
     for law in found.laws:
         for c in law.constants:
-            say(f"{law.name}.{c.name} = {c.value:.4g} {c.unit}" + _interval(c.low, c.high))
+            value = "open" if c.bound else f"{c.value:.4g} {c.unit}"
+            say(f"{law.name}.{c.name} = {value}{_interval(c.low, c.high, c.bound)}")
         for words in law.rivals:
             say(f"explains as much: {words}")
     for words in found.cannot_judge:
@@ -84,5 +88,7 @@ def _added(campaign: Path, beside: Sequence[str], files: Sequence[Path]) -> list
     return out
 
 
-def _interval(low: float, high: float) -> str:
+def _interval(low: float, high: float, bound: str) -> str:
+    if bound:
+        return f": the fit ran to the {bound} end of what was tried, so the data do not tell it"
     return f" ({low:.4g} to {high:.4g})" if low == low else " (a choice)"

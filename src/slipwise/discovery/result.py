@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from slipwise.discovery.candidate import CurveCandidate
+from slipwise.discovery.curve_shape import CurveShape, describe_curve
 from slipwise.discovery.effect_file import can_be_written, write_law
 from slipwise.discovery.law import Law, Origin
 from slipwise.display import Drawn, Tabular
@@ -67,6 +68,13 @@ class Discovery(Drawn, Tabular):
     def sentence(self) -> str:
         """The answer in words."""
         return _sentence(self)
+
+    @property
+    def shape(self) -> CurveShape | None:
+        """What explains most, described without a form; None where nothing does, or over two states."""
+        if self.laws:
+            return self.laws[0].shape
+        return None if self.organised is None else describe_curve(self.organised.curve, self.organised.states[0])
 
     @property
     def origin(self) -> Origin:
@@ -134,7 +142,12 @@ class Discovery(Drawn, Tabular):
                     "constants": {
                         c.name: {"value": c.value, "low": _known(c.low), "high": _known(c.high), "unit": c.unit}
                         for c in law.constants
+                        if not c.bound
                     },
+                    "undetermined": law.undetermined,
+                    "shape": None if law.shape is None else law.shape.as_json(),
+                    "curve": law.band(),
+                    "alike": dict(law.alike),
                     "share": law.share,
                     "valid": {state: list(ends) for state, ends in law.valid.items()},
                 }
@@ -143,6 +156,7 @@ class Discovery(Drawn, Tabular):
             "beside": list(self.beside),
             "corrections": [one.as_json() for one in self.corrections],
             "organised": None if self.organised is None else self.organised.label,
+            "shape": None if self.shape is None else self.shape.as_json(),
             "share": self.share,
             "held_out": {"before": _known(before), "after": _known(after)},
             "relations": {name: [_known(error) for error in errors] for name, errors in self.relations.items()},

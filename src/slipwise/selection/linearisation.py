@@ -1,6 +1,6 @@
 """A fitted model with what every candidate changes in its residual, counted from the absence of each effect."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -8,8 +8,10 @@ import numpy as np
 from slipwise.arrays import Array, Mask
 from slipwise.campaign.materiality import Materiality
 from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.least_squares import Solution
 from slipwise.relations.measurement import is_shifting
 from slipwise.relations.parameters import Term
+from slipwise.rig import Specimen
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import OF_MODEL, CandidateColumn, make_column
 from slipwise.selection.hypothesis import Hypothesis
@@ -36,6 +38,7 @@ class Linearisation:
         left: (q,) averaged residual that would be left without the effects of the model.
         fitted: (q,) averaged residual of the model.
         slopes: (q, b) averaged slopes of the numbers that are fitted whatever is missing.
+        keys: (b,) of these numbers.
         of_base: (b,) which of these belong to the base model.
         tolerances: of these numbers, for `compute_posterior`.
         own: columns of the effects of the model.
@@ -48,6 +51,7 @@ class Linearisation:
     left: Array
     fitted: Array
     slopes: Array
+    keys: tuple[str, ...]
     of_base: Mask
     tolerances: Mapping[int, tuple[float, float]]
     own: tuple[CandidateColumn, ...]
@@ -96,10 +100,11 @@ def linearise(
     ends = set(solution.at_bounds)  # what has run against a bound makes up for nothing
     free = [j for j, key in enumerate(keys) if key not in strong | ends]  # of a strength the whole effect tells
     of_base = np.array([keys[j].rpartition(".")[0] not in labels for j in free], bool)
-    kept, tolerances = slopes[:, free], _tolerances(found, [keys[j] for j in free])
+    kept, names = slopes[:, free], tuple(keys[j] for j in free)
+    tolerances = list_tolerances(solution, found.objective.specimen, labels, names)
     every = (*columns, *own)
     statistics = compute_statistics(rows, left, fitted, kept, of_base, every)
-    return Linearisation(found, rows, left, fitted, kept, of_base, tolerances, tuple(own), every, statistics)
+    return Linearisation(found, rows, left, fitted, kept, names, of_base, tolerances, tuple(own), every, statistics)
 
 
 def _whole_effect(here: BaseFit, term: Term, rows: AveragedRows, slopes: Array, stacked: Array) -> Array:
@@ -120,16 +125,23 @@ def _whole_effect(here: BaseFit, term: Term, rows: AveragedRows, slopes: Array, 
     )
 
 
-def _tolerances(found: Hypothesis, keys: Sequence[str]) -> dict[int, tuple[float, float]]:
-    """Return what is known of numbers that are fitted whatever is missing; see `compute_posterior`."""
+def list_tolerances(
+    solution: Solution, specimen: Specimen, labels: Collection[str], keys: Sequence[str]
+) -> dict[int, tuple[float, float]]:
+    """Return what is known of numbers that are fitted whatever is missing; see `compute_posterior`.
+
+    Args:
+        solution: of the fit.
+        specimen: rated values.
+        labels: of the terms that were added to the base.
+        keys: of the numbers.
+    """
     out: dict[int, tuple[float, float]] = {}
-    free = {f.key: f for f in found.solution.free}
-    labels = {t.label for t in found.terms}
+    free = {f.key: f for f in solution.free}
     for place, key in enumerate(keys):
         f = free[key]
         if key == "rig.mass":
-            rated = found.objective.specimen.mass
-            out[place] = ((rated - found.solution.values[key]) / f.scale, _MASS * rated / f.scale)
+            out[place] = ((specimen.mass - solution.values[key]) / f.scale, _MASS * specimen.mass / f.scale)
         elif key.rpartition(".")[0] in labels:
-            out[place] = (0.0, _CONSTANTS * float(np.clip(abs(found.solution.values[key]) / f.scale, _LEAST, 1.0)))
+            out[place] = (0.0, _CONSTANTS * float(np.clip(abs(solution.values[key]) / f.scale, _LEAST, 1.0)))
     return out
