@@ -10,12 +10,16 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import OUT, can_record, out_folder, print_json, say, say_corrections, say_next, steps
-from slipwise.cli.options import CampaignFolder, Figures, Json, ModelFile, Own, Trusted, own_effects, start_model
+from slipwise.cli.options import Figures, Json, ModelFile, Own, Trusted, own_effects, start_model
 from slipwise.errors import visible
+
+CampaignFolders = Annotated[
+    list[Path], typer.Argument(help="Folder with campaign.toml and the measured runs; further ones to hold it against.")
+]
 
 
 def discover(
-    campaign: CampaignFolder,
+    campaigns: CampaignFolders,
     out: Annotated[
         Path, typer.Option(help="Folder for discovery.json, report.html, the recording and the law's effect file.")
     ] = Path("out/discovery"),
@@ -31,6 +35,9 @@ def discover(
 ) -> None:
     """Find the law of what the catalogue does not hold, and write it as an effect.
 
+    It is looked for in the first campaign. Of further ones, such as another specimen's, it says whether the law holds
+    there and with which size, and its constants are those of all of them.
+
     Example: `slipwise discover campaigns/march --out out/march`
     """
     from slipwise.view.figures.figure_files import figures_into
@@ -40,11 +47,12 @@ def discover(
 
     sw.effects.check_name(name)  # not after minutes of search
     recording = can_record(recording)
-    measured = sw.load_campaign(campaign)
+    campaign = campaigns[0]
+    measured, *others = [sw.load_campaign(folder) for folder in campaigns]
     folder = out_folder(out)
     with steps() as tell:
         start = start_model(campaign, model, trust, effect)
-        found = sw.discover(measured, start, own=own_effects(effect, start), progress=tell)
+        found = sw.discover(measured, start, own=own_effects(effect, start), others=others, progress=tell)
     found = found.written(folder, name, date.today().isoformat())
     files = [save_json(found.as_json(), folder / "discovery.json")]
     with figures_into(folder / "figures" if figures else None) as drawn:
@@ -67,6 +75,8 @@ def discover(
             say(f"{law.name}.{c.name} = {value}{_interval(c.low, c.high, c.bound)}")
         for words in law.rivals:
             say(f"explains as much: {words}")
+    for test in found.campaigns:
+        say(test.sentence)
     for words in found.cannot_judge:
         say(f"cannot judge {words}")
     for path in files:

@@ -31,6 +31,7 @@ from slipwise.discovery.search import (
     move_ground,
     without_law,
 )
+from slipwise.discovery.second_campaign import add_campaigns
 from slipwise.effects import RIG_MOTION, Effect
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval
@@ -99,6 +100,7 @@ def discover(
     *,
     own: Iterable[Effect] = (),
     diagnosis: Diagnosis | None = None,
+    others: Iterable[Campaign | Path | str] = (),
     progress: Callable[[str, float], None] | None = None,
 ) -> Discovery:
     """Find the law of what a model lacks where the catalogue ends.
@@ -108,16 +110,20 @@ def discover(
         model: the user's current model, as for `diagnose`.
         own: effects beside those of the catalogue.
         diagnosis: of the same campaign and model; made where not given.
+        others: further campaigns: one law, its size in each of them; their own models begin from the paper's law.
         progress: called with what is being done and the share done.
 
     Raises:
         InputError: the campaign lacks what every fit needs.
     """
-    tell = progress or (lambda words, share: None)
+    tell, own = progress or (lambda words, share: None), tuple(own)
     if diagnosis is None:
         diagnosis = diagnose(campaign, model, own=own, progress=lambda words, share: tell(words, 0.5 * share))
     began = time.perf_counter()
     told = _held_against_the_others(diagnosis.campaign, _search(diagnosis, tell))
+    if told.laws:
+        further = [diagnose(other, own=own, progress=lambda words, _: tell(words, 0.9)) for other in others]
+        told = add_campaigns(told, diagnosis, further)
     tell("done", 1.0)
     return replace(told, corrections=diagnosis.corrections, seconds=time.perf_counter() - began)
 

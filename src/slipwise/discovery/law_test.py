@@ -6,18 +6,18 @@ leave is compared by the likelihood, samples counted as few as in the posterior:
 systematic, and with every sample any two campaigns would be unlike.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from slipwise.diagnosis.result import Diagnosis
-from slipwise.display import Drawn
+from slipwise.display import Tabular
 from slipwise.effects import Effect
 from slipwise.errors import SettingError
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.intervals import compute_intervals
+from slipwise.estimation.intervals import Interval, compute_two_sided_intervals
 from slipwise.estimation.least_squares import Solution, get_slopes, solve, with_slopes
 from slipwise.estimation.objective import Objective
 from slipwise.relations.parameters import Free, Term
@@ -35,7 +35,7 @@ MARK = "It is a law of the data."
 
 
 @dataclass(frozen=True, repr=False)
-class LawTest(Drawn):
+class LawTest(Tabular):
     """How a law of one campaign does in another.
 
     Attributes:
@@ -48,7 +48,7 @@ class LawTest(Drawn):
         high: upper end.
         errors: largest error of a relation in the fitted runs without it, as it stands, with its size free, and with
             all of its numbers free [floors].
-        constants: its numbers where all are free [SI].
+        constants: name -> its number where all are free, with the 95 % interval [SI]; NaN where the data leave it open.
         beside: effects that the diagnosis of this campaign names beside it.
     """
 
@@ -59,7 +59,7 @@ class LawTest(Drawn):
     low: float
     high: float
     errors: tuple[float, float, float, float]
-    constants: dict[str, float]
+    constants: dict[str, tuple[float, float, float]]
     beside: tuple[str, ...]
 
     @property
@@ -90,7 +90,7 @@ class LawTest(Drawn):
             "holds": self.holds,
             **{k: v if v == v else None for k, v in known.items()},
             "errors": dict(zip(("without", "as it stands", "size free", "all free"), self.errors, strict=True)),
-            "constants": dict(self.constants),
+            "constants": {name: _known(of) for name, of in self.constants.items()},
             "beside": list(self.beside),
             "words": self.sentence,
         }
@@ -98,10 +98,24 @@ class LawTest(Drawn):
     def _headline(self) -> str:
         return self.sentence
 
+    def _rows(self) -> list[dict[str, Any]]:
+        return [{"constant": name, **dict(zip(("value", "low", "high"), of, strict=True))}
+                for name, of in self.constants.items()]  # fmt: skip
 
-def is_law(effect: Effect) -> bool:
-    """Return whether an effect is a law that `discover` has written."""
-    return MARK in effect.text
+
+def _known(of: tuple[float, float, float]) -> dict[str, float | None]:
+    """Return a number for JSON, which has none that is not known."""
+    return {name: x if x == x else None for name, x in zip(("value", "low", "high"), of, strict=True)}
+
+
+def hold_laws_against(found: Diagnosis, own: Iterable[Effect]) -> list[LawTest]:
+    """Say whether laws that `discover` wrote in other campaigns hold in this one; other effects are passed over.
+
+    Args:
+        found: the diagnosis of the campaign; the laws may have competed in it.
+        own: effects of a user's files.
+    """
+    return [hold_law_against(found, effect) for effect in own if MARK in effect.text]
 
 
 def hold_law_against(found: Diagnosis, law: Effect) -> LawTest:
@@ -139,10 +153,11 @@ def hold_law_against(found: Diagnosis, law: Effect) -> LawTest:
     nats = [_log_likelihood(o, s) for o, s in fits]
     key = f"{term.label}.{sizes[0].name}"
     factor = 1.0 / law.typical()[sizes[0].name] if law.typical()[sizes[0].name] else float("nan")
-    ended_at = with_slopes(with_law, sized)
-    fit = BaseFit(base.campaign, base.model, with_law, ended_at.free, ended_at)
-    entry = next(i for i in compute_intervals(fit).entries if i.key == key)
+    entry = _intervals(base, with_law, sized)[key]
+    own_form = _intervals(base, with_law, freed)
     ends = sorted((entry.low * factor, entry.high * factor))
+    constants = {p.name: freed.values[f"{term.label}.{p.name}"] for p in law.parameters}
+    known = {n: own_form[k] for n in constants if (k := f"{term.label}.{n}") in own_form}
     return LawTest(
         law=law.name,
         campaign=found.campaign,
@@ -150,10 +165,16 @@ def hold_law_against(found: Diagnosis, law: Effect) -> LawTest:
         size=sized.values[key] * factor,
         low=ends[0],
         high=ends[1],
-        errors=tuple(_largest(o, s) for o, s in fits),
-        constants={p.name: freed.values[f"{term.label}.{p.name}"] for p in law.parameters},
+        errors=(_largest(*fits[0]), _largest(*fits[1]), _largest(*fits[2]), _largest(*fits[3])),
+        constants={n: (x, known[n].low, known[n].high) if n in known else (x, x, x) for n, x in constants.items()},
         beside=tuple(dict.fromkeys(t.effect.name for t in rest)),
     )
+
+
+def _intervals(base: BaseFit, objective: Objective, solution: Solution) -> dict[str, Interval]:
+    ended = with_slopes(objective, solution)
+    fit = BaseFit(base.campaign, base.model, objective, ended.free, ended)
+    return {i.key: i for i in compute_two_sided_intervals(fit).entries}
 
 
 def _judge(nats: Sequence[float]) -> str:

@@ -10,6 +10,7 @@ from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.curve_shape import CurveShape, describe_curve
 from slipwise.discovery.effect_file import can_be_written, write_law
 from slipwise.discovery.law import Law, Origin
+from slipwise.discovery.law_test import LawTest
 from slipwise.display import Drawn, Tabular
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.preparation.data_corrections import DataCorrection
@@ -47,6 +48,7 @@ class Discovery(Drawn, Tabular):
         seconds: it took.
         beside: effects that the diagnosis had added to the user's model before the search for a law began.
         corrections: what was done about the data before any fit.
+        campaigns: how its first law does in every campaign whose data it was given; empty where it was one.
     """
 
     campaign: str
@@ -63,6 +65,7 @@ class Discovery(Drawn, Tabular):
     seconds: float
     beside: tuple[str, ...] = ()
     corrections: tuple[DataCorrection, ...] = ()
+    campaigns: tuple[LawTest, ...] = ()
 
     @property
     def sentence(self) -> str:
@@ -154,6 +157,7 @@ class Discovery(Drawn, Tabular):
                 for law in self.laws
             ],
             "beside": list(self.beside),
+            "campaigns": [test.as_json() for test in self.campaigns],
             "corrections": [one.as_json() for one in self.corrections],
             "organised": None if self.organised is None else self.organised.label,
             "shape": None if self.shape is None else self.shape.as_json(),
