@@ -232,6 +232,7 @@ def _show(
     timings: bool,
     tests: "Sequence[sw.LawTest]",
 ) -> None:
+    from slipwise.discovery.law_test import tests_as_json
     from slipwise.view.files import save_json
 
     try:
@@ -243,9 +244,9 @@ def _show(
         found = _with_law(found, ERR if json else OUT)
         times: dict[str, float] = {}
         files = write_diagnosis(found, folder, recording, figures, times)
-        files += [save_json({"schema": 1, **test.as_json()}, folder / f"{test.law}.json") for test in tests]
+        files += [save_json(tests_as_json(tests), folder / "holds.json")] if tests else []
     if json:
-        print_json(found.as_json() | ({"laws": [test.as_json() for test in tests]} if tests else {}))
+        print_json(found.as_json() | ({"laws": tests_as_json(tests)["laws"]} if tests else {}))
     else:
         _wrote(files)
     if timings:

@@ -103,6 +103,11 @@ class LawTest(Tabular):
                 for name, of in self.constants.items()]  # fmt: skip
 
 
+def tests_as_json(tests: Sequence[LawTest]) -> dict[str, Any]:
+    """Return how several laws do in a campaign for a program to read."""
+    return {"schema": 1, "laws": [test.as_json() for test in tests]}
+
+
 def _known(of: tuple[float, float, float]) -> dict[str, float | None]:
     """Return a number for JSON, which has none that is not known."""
     return {name: x if x == x else None for name, x in zip(("value", "low", "high"), of, strict=True)}

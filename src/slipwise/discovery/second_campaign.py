@@ -34,7 +34,7 @@ def add_campaigns(found: Discovery, first: Diagnosis, others: Sequence[Diagnosis
         first: the diagnosis of that campaign.
         others: of the other campaigns.
     """
-    if found.evidence not in ("law", "state") or not found.laws or not can_be_written(found.laws[0]) or not others:
+    if not others or found.evidence not in ("law", "state") or not found.laws or not can_be_written(found.laws[0]):
         return found
     law = found.laws[0]
     alone = [_held(law, found.origin, other) for other in others]
