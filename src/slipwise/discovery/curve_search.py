@@ -3,7 +3,6 @@
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations
 
 import numpy as np
 
@@ -40,8 +39,8 @@ from slipwise.selection.proposals import LIKELY_LIMITS, values_of_form
 
 #: Curves that are weighed each with a search of its own for what stands beside it, of those that add most.
 _SEARCHED = 16
-#: Of these, those that are tried with every gate, and states that are tried in pairs.
-_GATED, _PAIRED = 6, 6
+#: Of these, those that are tried with every gate; ports, and states at each, that are tried with every other state.
+_GATED, _PORTS, _LEADING = 6, 2, 2
 #: A single state that explains this share is enough: no pairs are tried [1].
 _ENOUGH = 0.95
 #: A second state explains at least this much more of motions left out [1].
@@ -105,7 +104,7 @@ def weigh_curves(
         found = _sorted([*found, *_searched(system, rig, starts)])
     more = [*_gated(system, objective, every, found)]
     if max((c.share for _, _, c in found), default=0.0) < _ENOUGH:
-        more += _pairs(system, objective, found)
+        more += _pairs(system, objective, found, made)
     single = max((c.share for _, _, c in found), default=0.0)
     for one, parent in more:
         other = weigh(system, one.products, parent.active, parent.level, moves=2)
@@ -222,23 +221,38 @@ def _gated(
 
 
 def _pairs(
-    system: CurveSystem, objective: Objective, found: Sequence[tuple[_Made, Weighed, CurveCandidate]]
+    system: CurveSystem,
+    objective: Objective,
+    found: Sequence[tuple[_Made, Weighed, CurveCandidate]],
+    singles: Sequence[_Made],
 ) -> list[tuple[_Made, Weighed]]:
-    """Return products of the best states at one port."""
+    """Return products of the best states at a port with every other one: of a product one factor may show alone."""
     out: list[tuple[_Made, Weighed]] = []
     best = [each for each in _different(found) if each[0].of.gate is EVERYWHERE]
-    for port in dict.fromkeys(one.of.port.name for one, _, _ in best[:_GATED]):
-        own = [each for each in best if each[0].of.port.name == port][:_PAIRED]
-        for (one, weighed, _), (other, _, _) in combinations(own, 2):
-            states = (one.of.states[0], other.of.states[0])
-            prior = max(one.prior, other.prior) + float(np.log(_PAIR / max(len(own) - 1, 1)))
-            out.append((_make(system, objective, Dependence(states, one.of.port), prior), weighed))
+    for port in list(dict.fromkeys(one.of.port.name for one, _, _ in best))[:_PORTS]:
+        own = [m for m in singles if m.of.port.name == port]
+        names = {m.of.states[0].name for m in own}
+        for one, weighed, _ in [each for each in best if each[0].of.port.name == port][:_LEADING]:
+            without = _without_curve(system, weighed)
+            likeliest: dict[str, tuple[float, _Made]] = {}
+            for other in own:  # of lags of one state the likeliest
+                name, adds = other.of.states[0].name, add_curve(system, without, other.products)
+                if name != one.of.states[0].name and adds > likeliest.get(name, (-np.inf,))[0]:
+                    likeliest[name] = adds, other
+            prior = one.prior + float(np.log(_PAIR / max(len(names) - 1, 1)))
+            for _, other in likeliest.values():
+                states = (one.of.states[0], other.of.states[0])
+                out.append((_make(system, objective, Dependence(states, one.of.port), prior), weighed))
     return _most(system, out)
+
+
+def _without_curve(system: CurveSystem, weighed: Weighed) -> Weighed:
+    return replace(weighed, solved=solve_system(system, variance_of(system, weighed.active), weighed.level))
 
 
 def _most(system: CurveSystem, made: Sequence[tuple[_Made, Weighed]]) -> list[tuple[_Made, Weighed]]:
     """Return those that add most to the evidence of what stands beside their single state."""
-    bare = {id(w): replace(w, solved=solve_system(system, variance_of(system, w.active), w.level)) for _, w in made}
+    bare = {id(w): _without_curve(system, w) for _, w in made}
     adds = [add_curve(system, bare[id(w)], one.products) + one.prior for one, w in made]
     return [made[i] for i in np.argsort(adds)[::-1][: _SEARCHED // 2]]
 
