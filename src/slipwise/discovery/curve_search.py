@@ -43,6 +43,8 @@ _SEARCHED = 16
 _GATED, _PORTS, _LEADING = 6, 2, 2
 #: A single state that explains this share is enough: no pairs are tried [1].
 _ENOUGH = 0.95
+#: Curves whose evidence is lower than the best one's by less are as likely [nats].
+_ALIKE = 3.0
 #: A second state explains at least this much more of motions left out [1].
 _MORE_LEFT_OUT = 0.01
 #: The motion of the rig is looked at where no state of the pads explains this much: on one motion many go with it [1].
@@ -97,15 +99,14 @@ def weigh_curves(
     made = [_make(system, objective, of, prior) for of, prior in _singles(pads, ports)]
     starts = (plain, bare)
     found = _searched(system, made, starts)
-    best = max((c.share for _, _, c in found), default=0.0)
-    if best < _OF_THE_RIG:
+    if _best_share(found) < _OF_THE_RIG:
         on_pads = [p for p in ports if p.relation == "pads"]
         rig = [_make(system, objective, of, prior) for of, prior in _singles(rig_states(every), on_pads)]
         found = _sorted([*found, *_searched(system, rig, starts)])
     more = [*_gated(system, objective, every, found)]
-    if max((c.share for _, _, c in found), default=0.0) < _ENOUGH:
+    single = _best_share(found)
+    if single < _ENOUGH:
         more += _pairs(system, objective, found, made)
-    single = max((c.share for _, _, c in found), default=0.0)
     for one, parent in more:
         other = weigh(system, one.products, parent.active, parent.level, moves=2)
         both = _candidate(system, one, other)
@@ -181,6 +182,12 @@ def _searched(
         best = max(tried, key=lambda w: w.evidence)
         out.append((one, best, _candidate(system, one, best)))
     return _sorted(out)
+
+
+def _best_share(found: Sequence[tuple[_Made, Weighed, CurveCandidate]]) -> float:
+    """Return the largest share of the likeliest curves: of what hardly adds anything a share says nothing."""
+    likely = [c for _, _, c in found if c.evidence > found[0][2].evidence - _ALIKE]
+    return max((c.share for c in likely), default=0.0)
 
 
 def _sorted(found: Sequence[tuple[_Made, Weighed, CurveCandidate]]) -> list[tuple[_Made, Weighed, CurveCandidate]]:
