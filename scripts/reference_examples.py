@@ -152,8 +152,8 @@ law = sw.discover(campaign)
 # %% Discovery (minutes)
 law.sentence
 # %% list_laws, LawList
-laws = sw.list_laws("out")
-# %% hold_laws_against, LawTest (minutes)
+laws = sw.list_laws(".")
+# %% hold_laws_against, LawTests, LawTest (minutes)
 tests = sw.hold_laws_against(found, [])  # effects of your files
 # %% effects.catalogue
 from slipwise import effects

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from slipwise.discovery.discover import add_law, discover
     from slipwise.discovery.discover import diagnose_with_law as diagnose
     from slipwise.discovery.law_list import LawList, list_laws
-    from slipwise.discovery.law_test import LawTest, hold_laws_against
+    from slipwise.discovery.law_test import LawTest, LawTests, hold_laws_against
     from slipwise.discovery.result import Discovery
     from slipwise.effects import Effect
     from slipwise.errors import SlipwiseError
@@ -93,6 +93,7 @@ _PLACES: dict[str, tuple[str, str]] = {
     "list_laws": ("discovery.law_list", "list_laws"),
     "LawList": ("discovery.law_list", "LawList"),
     "LawTest": ("discovery.law_test", "LawTest"),
+    "LawTests": ("discovery.law_test", "LawTests"),
     "export_opensees": ("export.opensees", "export_opensees"),
     "export_sap2000": ("export.sap2000", "export_sap2000"),
     "ladder": ("diagnosis.ladder", "ladder"),
@@ -154,6 +155,7 @@ __all__ = [
     "Ladder",
     "LawList",
     "LawTest",
+    "LawTests",
     "Limits",
     "LinkProperties",
     "Model",

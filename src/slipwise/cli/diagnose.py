@@ -1,6 +1,5 @@
 """`slipwise diagnose` and `slipwise ladder`: name what is missing, and watch the error fall."""
 
-from collections.abc import Sequence
 from math import isfinite
 from pathlib import Path
 from shlex import quote
@@ -230,23 +229,22 @@ def _show(
     figures: bool,
     json: bool,
     timings: bool,
-    tests: "Sequence[sw.LawTest]",
+    tests: "sw.LawTests",
 ) -> None:
-    from slipwise.discovery.law_test import tests_as_json
     from slipwise.view.files import save_json
 
     try:
         if not json:  # before a law is looked for and anything is drawn: who waits, waits for this
             _tell(found)
-            for test in tests:
+            for test in tests.tests:
                 say(test.sentence)
     finally:  # who listened may have left after some lines, as `head` does
         found = _with_law(found, ERR if json else OUT)
         times: dict[str, float] = {}
         files = write_diagnosis(found, folder, recording, figures, times)
-        files += [save_json(tests_as_json(tests), folder / "holds.json")] if tests else []
+        files += [save_json(tests.as_json(), folder / "holds.json")] if tests.tests else []
     if json:
-        print_json(found.as_json() | ({"laws": tests_as_json(tests)["laws"]} if tests else {}))
+        print_json(found.as_json() | ({"laws": tests.as_json()["laws"]} if tests.tests else {}))
     else:
         _wrote(files)
     if timings:

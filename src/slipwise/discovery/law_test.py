@@ -103,9 +103,28 @@ class LawTest(Tabular):
                 for name, of in self.constants.items()]  # fmt: skip
 
 
-def tests_as_json(tests: Sequence[LawTest]) -> dict[str, Any]:
-    """Return how several laws do in a campaign for a program to read."""
-    return {"schema": 1, "laws": [test.as_json() for test in tests]}
+@dataclass(frozen=True, repr=False)
+class LawTests(Tabular):
+    """How several laws do in one campaign.
+
+    Attributes:
+        tests: of each law.
+    """
+
+    tests: tuple[LawTest, ...]
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the answers for a program to read."""
+        return {"schema": 1, "laws": [test.as_json() for test in self.tests]}
+
+    def _headline(self) -> str:
+        return " ".join(test.sentence for test in self.tests) or "no law was given"
+
+    def _rows(self) -> list[dict[str, Any]]:
+        return [
+            {"law": t.law, "campaign": t.campaign, "holds": t.holds, "size": t.size, "low": t.low, "high": t.high}
+            for t in self.tests
+        ]
 
 
 def _known(of: tuple[float, float, float]) -> dict[str, float | None]:
@@ -113,14 +132,14 @@ def _known(of: tuple[float, float, float]) -> dict[str, float | None]:
     return {name: x if x == x else None for name, x in zip(("value", "low", "high"), of, strict=True)}
 
 
-def hold_laws_against(found: Diagnosis, own: Iterable[Effect]) -> list[LawTest]:
+def hold_laws_against(found: Diagnosis, own: Iterable[Effect]) -> LawTests:
     """Say whether laws that `discover` wrote in other campaigns hold in this one; other effects are passed over.
 
     Args:
         found: the diagnosis of the campaign; the laws may have competed in it.
         own: effects of a user's files.
     """
-    return [hold_law_against(found, effect) for effect in own if MARK in effect.text]
+    return LawTests(tuple(hold_law_against(found, effect) for effect in own if MARK in effect.text))
 
 
 def hold_law_against(found: Diagnosis, law: Effect) -> LawTest:
