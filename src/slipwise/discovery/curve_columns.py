@@ -5,6 +5,7 @@ They are averaged as the columns of all candidates are: beside those they compet
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,7 +89,7 @@ def make_curve_columns(objective: Objective, rows: AveragedRows, of: Dependence)
         pieces = splines.columns([v.ravel() for v in values])
         pieces.data = pieces.data * np.repeat(factor, np.diff(pieces.indptr))
         parts.append(pieces)
-    stacked = csr_array(vstack(parts, format="csr"))
+    stacked: Any = csr_array(vstack(parts, format="csr"))
     count = np.bincount(stacked.indices[stacked.data != 0.0], minlength=stacked.shape[1])
     return CurveColumns(splines, rows.average_sparse(relation, stacked, blocks[0][0].start), count)
 

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import cho_solve
 
 from slipwise.arrays import Array
@@ -162,7 +163,7 @@ def sizes_of(system: CurveSystem, found: Weighed) -> dict[int, float]:
     return {form: float(np.linalg.norm(means[_members(system, form)])) for form in found.active}
 
 
-def _members(system: CurveSystem, form: int) -> Array:
+def _members(system: CurveSystem, form: int) -> NDArray[np.int64]:
     groups = system.groups
     return groups.columns[form, : groups.length[form]]
 
@@ -211,6 +212,6 @@ def _worth(own: Array, pull: Array, variance: Array) -> float:
     return 0.5 * float(pull @ np.linalg.solve(precision, pull) - determinant - np.sum(np.log(variance)))
 
 
-def _of_right_sign(system: CurveSystem, at: Array, own: Array, pull: Array, variance: Array) -> bool:
+def _of_right_sign(system: CurveSystem, at: NDArray[np.int64], own: Array, pull: Array, variance: Array) -> bool:
     size = np.linalg.solve(own + np.diag(1.0 / variance), pull)
     return all(system.columns[j].two_sided or x > 0.0 for j, x in zip(at, size, strict=True))

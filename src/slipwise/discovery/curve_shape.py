@@ -101,16 +101,17 @@ def describe_curve(curve: ResidualCurve, state: DrivingState) -> CurveShape | No
     grid = np.linspace(knots[0], knots[-1], _POINTS)
     shown = np.interp(grid, knots, heights)
     part = round(_PART * _POINTS)
-    ends = tuple(
-        (float(knots[i]), float(heights[i]), *(float(heights[i] + way * _BAND * errors[i]) for way in (-1.0, 1.0)))
-        for i in (0, -1)
-    )
+
+    def end(i: int) -> tuple[float, float, float, float]:
+        half = _BAND * float(errors[i])
+        return float(knots[i]), float(heights[i]), float(heights[i]) - half, float(heights[i]) + half
+
     monotone = direction in ("rises", "falls")
     begins_flat, ends_flat = (float(np.ptp(piece)) < _FLAT * span for piece in (shown[:part], shown[-part:]))
     return CurveShape(
         state.name, direction, _parity(knots, heights, errors, span) if state.signed else "",
         monotone and ends_flat and not begins_flat, monotone and begins_flat and not ends_flat, periodic,
-        ends,
+        (end(0), end(-1)),
     )  # fmt: skip
 
 

@@ -7,7 +7,7 @@ taken out of residual and columns alike.
 """
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,13 +84,13 @@ class AveragedRows:
             stacked: its samples.
             start: place of the first of them among those of all relations.
         """
-        number, first = self.relations.index(relation), 0
-        out: list[Array] = [np.zeros((0, stacked.shape[1]))]
+        number, first, samples = self.relations.index(relation), 0, cast("Any", stacked)
+        out: list[Array] = [np.zeros((0, samples.shape[1]))]
         for each in self.series:
             here, first = first, first + len(each.edges)
             if self.relation[here] != number:
                 continue
-            part: Any = stacked[each.rows - start]
+            part = samples[each.rows - start]
             # rows that are averaged follow each other: what they hold is summed as one row's
             ends = part.indptr[np.r_[each.edges, len(each.rows)]]
             sums = csr_array((part.data, part.indices, ends), shape=(len(each.edges), part.shape[1])).toarray()
