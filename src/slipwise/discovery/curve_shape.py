@@ -88,11 +88,12 @@ def describe_curve(curve: ResidualCurve, state: DrivingState) -> CurveShape | No
     """
     if len(curve.knots) != 1 or len(curve.knots[0]) < 4:
         return None
-    knots, heights, errors = curve.knots[0], curve.heights(), np.maximum(curve.errors(), 1e-12)
+    knots, heights, wide = curve.knots[0], curve.heights(), curve.errors()
+    errors = np.maximum(curve.errors_about_mean(), 1e-12)
     told = (curve.count > 0) & (errors < 3.0 * np.median(errors))  # where hardly a sample lies nothing is said
     if np.count_nonzero(told) < 4:
         return None
-    knots, heights, errors = knots[told], heights[told], errors[told]
+    knots, heights, errors, wide = knots[told], heights[told], errors[told], wide[told]
     span = float(np.ptp(heights))
     periodic = _repeats(knots, heights, errors)
     rises, falls = (_is_monotone(way * heights, errors, span) for way in (1.0, -1.0))
@@ -103,7 +104,7 @@ def describe_curve(curve: ResidualCurve, state: DrivingState) -> CurveShape | No
     part = round(_PART * _POINTS)
 
     def end(i: int) -> tuple[float, float, float, float]:
-        half = _BAND * float(errors[i])
+        half = _BAND * float(wide[i])
         return float(knots[i]), float(heights[i]), float(heights[i]) - half, float(heights[i]) + half
 
     monotone = direction in ("rises", "falls")

@@ -29,7 +29,7 @@ from slipwise.selection.linearisation import Linearisation, list_tolerances
 from slipwise.selection.posterior import Prior
 
 #: Candidates, forms of each, and matches that are fitted, and of these the ones that are fitted finely.
-_CANDIDATES, _FORMS, _FITTED, _FINELY = 4, 5, 7, 2
+_CANDIDATES, _FORMS, _FITTED, _FINELY = 5, 5, 8, 2
 #: Matches of a single state that are fitted at least: two states bend further than the truth's one.
 _SINGLE = 3
 #: Candidates whose evidence is lower than the best one's by more are not fitted [nats].
@@ -184,7 +184,10 @@ def _blocks(objective: Objective, rows: AveragedRows) -> NDArray[np.int64]:
 def _matches(weighed: Sequence[CurveCandidate]) -> list[Match]:
     """Return the matches to be fitted: the likeliest of the likeliest candidates, and the likeliest of one state."""
     likely = [c for c in weighed if c.share > _LEAST and c.evidence > max(weighed[0].evidence - _NEAR, 0.0)]
-    every = [m for c in likely[:_CANDIDATES] for m in matched(c, forms())[:_FORMS]]
+    kept: dict[tuple[object, ...], CurveCandidate] = {}
+    for c in likely:  # of lags of one state the likeliest: the lag is fitted
+        kept.setdefault((*(s.name for s in c.states), c.port.name, c.gate.name), c)
+    every = [m for c in list(kept.values())[:_CANDIDATES] for m in matched(c, forms())[:_FORMS]]
     every.sort(key=_evidence, reverse=True)
     alone = [m for m in every if len(m.forms) == 1]
     return [*every[:_FITTED], *(m for m in alone[:_SINGLE] if m not in every[:_FITTED])]

@@ -65,6 +65,17 @@ class ResidualCurve:
         inverse = np.linalg.inv(_with_ridge(self.normal.sum(axis=0)))
         return np.sqrt(np.maximum(np.diag(inverse), 0.0) * self.scatter * per_independent)
 
+    def errors_about_mean(self) -> Array:
+        """Return the standard errors of the heights about their mean (K,): what moves all of them alike leaves these.
+
+        A base number that makes up for a constant leaves the mean open, and the shape as sure as it is.
+        """
+        inverse = np.linalg.inv(_with_ridge(self.normal.sum(axis=0)))
+        scattered = np.sqrt(np.outer(self.scatter, self.scatter)) * inverse
+        finite = np.where(np.isfinite(scattered), scattered, 0.0)
+        about = np.eye(len(finite)) - 1.0 / len(finite)
+        return np.sqrt(np.maximum(np.diag(about @ finite @ about.T), 0.0))
+
     def carried_over(self) -> float:
         """Return the drop of the squared residual of each block by the curve that the others ask for, added up [1]."""
         normal, drive = self.normal.sum(axis=0), self.drive.sum(axis=0)
