@@ -155,6 +155,10 @@ with_steps.close()
 law = sw.discover(campaign)
 # %% Discovery (minutes)
 law.sentence
+# %% list_laws, LawList
+laws = sw.list_laws(".")
+# %% hold_laws_against, LawTests, LawTest (minutes)
+tests = sw.hold_laws_against(found, [])  # effects of your files
 # %% effects.catalogue
 from slipwise import effects
 

@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     from slipwise.diagnosis.result import Diagnosis
     from slipwise.discovery.discover import add_law, discover
     from slipwise.discovery.discover import diagnose_with_law as diagnose
+    from slipwise.discovery.law_list import LawList, list_laws
+    from slipwise.discovery.law_test import LawTest, LawTests, hold_laws_against
     from slipwise.discovery.result import Discovery
     from slipwise.effects import Effect
     from slipwise.errors import SlipwiseError
@@ -89,6 +91,11 @@ _PLACES: dict[str, tuple[str, str]] = {
     "add_law": ("discovery.discover", "add_law"),
     "diagnose": ("discovery.discover", "diagnose_with_law"),
     "discover": ("discovery.discover", "discover"),
+    "hold_laws_against": ("discovery.law_test", "hold_laws_against"),
+    "list_laws": ("discovery.law_list", "list_laws"),
+    "LawList": ("discovery.law_list", "LawList"),
+    "LawTest": ("discovery.law_test", "LawTest"),
+    "LawTests": ("discovery.law_test", "LawTests"),
     "export_opensees": ("export.opensees", "export_opensees"),
     "export_sap2000": ("export.sap2000", "export_sap2000"),
     "ladder": ("diagnosis.ladder", "ladder"),
@@ -151,6 +158,9 @@ __all__ = [
     "Discovery",
     "Effect",
     "Ladder",
+    "LawList",
+    "LawTest",
+    "LawTests",
     "Limits",
     "LinkProperties",
     "Model",
@@ -186,10 +196,12 @@ __all__ = [
     "executors",
     "export_opensees",
     "export_sap2000",
+    "hold_laws_against",
     "init_campaign",
     "judge_prediction",
     "judge_specimens",
     "ladder",
+    "list_laws",
     "load_campaign",
     "load_model",
     "load_motion",

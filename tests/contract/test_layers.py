@@ -109,6 +109,7 @@ REASONS = {
     "effects/_by_pad.py": "reached through the package",
     "effects/_prandtl.py": "compiled code, out of an effect's file, which is read as an example",
     "effects/_trust.py": "reached through the package",
+    "regression/projection.py": "the projection that tests hold columns against",
     "jobs/stage_clock.py": "measures long work of any package",
     "simulation/kernel/prescribed_table.py": "a correction of MuJoCo's step, with its derivation",
     "simulation/kernel/rig_motion.py": "what laws are told of the rig, as campaign/rig_motion.py has it measured",

@@ -20,6 +20,8 @@ WRITERS = {
     "`bearing.json`": "bearings/result.py",
     "`diagnosis.json`": "diagnosis/result.py",
     "`discovery.json`": "discovery/result.py",
+    "`laws --json`": "discovery/law_list.py",
+    "`holds.json`": "discovery/law_test.py",
     "`next.json`": "design/result.py",
     "`summary.json` of several campaigns": "view/words/campaign_tables.py",
     "`bench.json`": "cli/bench.py",

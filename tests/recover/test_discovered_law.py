@@ -13,8 +13,9 @@ pytestmark = pytest.mark.slow
 PLACE, WIDTH, SIZE = 15e3, 3e3, 0.3
 
 
-def written(folder: Path, seed: int) -> Path:
+def written(folder: Path, seed: int, size: float = SIZE) -> Path:
     """Write a campaign of a slider whose coefficient falls and rises again where the load is about 15 kN."""
+    folder.mkdir(exist_ok=True)
     rng = np.random.default_rng(seed)
     runs = []
     for number in range(3):
@@ -23,7 +24,7 @@ def written(folder: Path, seed: int) -> Path:
         load = 5e3 + 20e3 * sweep
         speed = 0.02 * (1.0 + 0.5 * np.sin(2 * np.pi * time / (5.0 + number)))
         slip = np.cumsum(speed) * 0.02
-        coefficient = 0.1 * (1.0 - SIZE * np.exp(-(((load - PLACE) / WIDTH) ** 2)))
+        coefficient = 0.1 * (1.0 - size * np.exp(-(((load - PLACE) / WIDTH) ** 2)))
         force = coefficient * load * (1.0 + 0.002 * rng.standard_normal(len(time)))
         rows = np.stack([time, 1e3 * slip, 1e-3 * load, 1e-3 * force], axis=1)
         name = f"run{number}.csv"
@@ -49,3 +50,7 @@ def test_a_dip_of_the_coefficient_over_the_load_is_found_written_and_added(tmp_p
         model = sw.add(name, campaign, model).model
     (row,) = sw.add(str(file), campaign, model).rows()
     assert row["after"] == pytest.approx(after, rel=0.05)
+    assert [listed.name for listed in sw.list_laws(tmp_path).laws] == []  # no answer was written beside it
+    other = sw.diagnose(written(tmp_path / "other", 352, 0.5 * SIZE), law=False)
+    (test,) = sw.hold_laws_against(other, [sw.effects.find_effect(str(file))]).tests
+    assert test.holds == "with another size" and test.low < 0.5 < test.high

@@ -19,6 +19,7 @@ from slipwise.cli import (
     effects,
     ensemble,
     export,
+    laws,
     model_edit,
     next_test,
     paper,
@@ -45,8 +46,8 @@ STAGES: dict[str, tuple[Callable[..., object], ...]] = {
     "Measure": (plan.plan, campaign.init, watch.watch, campaign.audit, bearing.bearing),
     "Compare": (campaign.compare, workbench.workbench),
     "Name": (
-        diagnose.diagnose, diagnose.ladder, discover.discover, model_edit.add, model_edit.remove, effects.effects,
-        bench.bench,
+        diagnose.diagnose, diagnose.ladder, discover.discover, laws.laws, model_edit.add, model_edit.remove,
+        effects.effects, bench.bench,
     ),
     "Decide": (next_test.next_motion, consequence.consequence),
     "Simulate": (

@@ -183,7 +183,8 @@ def _diagnose_one(
             if why_not:
                 tell("refitting what was asked about", 1.0)
                 found = found.with_why_not(*why_not)
-        _show(found, folder, recording and measured.specimen.free, figures, json, timings)
+        tests = sw.hold_laws_against(found, own)
+        _show(found, folder, recording and measured.specimen.free, figures, json, timings, tests)
         if session is not None:
             _accept(found, session, ERR if json else OUT)
         if not json:
@@ -230,16 +231,22 @@ def _show(
     figures: bool,
     json: bool,
     timings: bool,
+    tests: "sw.LawTests",
 ) -> None:
+    from slipwise.view.files import save_json
+
     try:
         if not json:  # before a law is looked for and anything is drawn: who waits, waits for this
             _tell(found)
+            for test in tests.tests:
+                say(test.sentence)
     finally:  # who listened may have left after some lines, as `head` does
         found = _with_law(found, ERR if json else OUT)
         times: dict[str, float] = {}
         files = write_diagnosis(found, folder, recording, figures, times)
+        files += [save_json(tests.as_json(), folder / "holds.json")] if tests.tests else []
     if json:
-        print_json(found.as_json())
+        print_json(found.as_json() | ({"laws": tests.as_json()["laws"]} if tests.tests else {}))
     else:
         _wrote(files)
     if timings:

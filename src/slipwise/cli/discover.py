@@ -10,12 +10,16 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import OUT, can_record, out_folder, print_json, say, say_corrections, say_next, steps
-from slipwise.cli.options import CampaignFolder, Figures, Json, ModelFile, Own, Trusted, own_effects, start_model
+from slipwise.cli.options import Figures, Json, ModelFile, Own, Trusted, own_effects, start_model
 from slipwise.errors import visible
+
+CampaignFolders = Annotated[
+    list[Path], typer.Argument(help="Folder with campaign.toml and the measured runs; further ones to hold it against.")
+]
 
 
 def discover(
-    campaign: CampaignFolder,
+    campaigns: CampaignFolders,
     out: Annotated[
         Path, typer.Option(help="Folder for discovery.json, report.html, the recording and the law's effect file.")
     ] = Path("out/discovery"),
@@ -31,19 +35,24 @@ def discover(
 ) -> None:
     """Find the law of what the catalogue does not hold, and write it as an effect.
 
+    It is looked for in the first campaign. Of further ones, such as another specimen's, it says whether the law holds
+    there and with which size, and its constants are those of all of them.
+
     Example: `slipwise discover campaigns/march --out out/march`
     """
     from slipwise.view.figures.figure_files import figures_into
     from slipwise.view.files import save_json, save_page
     from slipwise.view.pages.discovery_page import discovery_page
+    from slipwise.view.words.discovery_words import shape_lines
 
     sw.effects.check_name(name)  # not after minutes of search
     recording = can_record(recording)
-    measured = sw.load_campaign(campaign)
+    campaign = campaigns[0]
+    measured, *others = [sw.load_campaign(folder) for folder in campaigns]
     folder = out_folder(out)
     with steps() as tell:
         start = start_model(campaign, model, trust, effect)
-        found = sw.discover(measured, start, own=own_effects(effect, start), progress=tell)
+        found = sw.discover(measured, start, own=own_effects(effect, start), others=others, progress=tell)
     found = found.written(folder, name, date.today().isoformat())
     files = [save_json(found.as_json(), folder / "discovery.json")]
     with figures_into(folder / "figures" if figures else None) as drawn:
@@ -58,11 +67,16 @@ def discover(
         return
     OUT.print(visible(found.sentence), markup=False, highlight=False)
     say_corrections(found.corrections)
+    for words in shape_lines(found):
+        say(words)
     for law in found.laws:
         for c in law.constants:
-            say(f"{law.name}.{c.name} = {c.value:.4g} {c.unit}" + _interval(c.low, c.high))
+            value = "open" if c.bound else f"{c.value:.4g} {c.unit}"
+            say(f"{law.name}.{c.name} = {value}{_interval(c.low, c.high, c.bound)}")
         for words in law.rivals:
             say(f"explains as much: {words}")
+    for test in found.campaigns:
+        say(test.sentence)
     for words in found.cannot_judge:
         say(f"cannot judge {words}")
     for path in files:
@@ -84,5 +98,7 @@ def _added(campaign: Path, beside: Sequence[str], files: Sequence[Path]) -> list
     return out
 
 
-def _interval(low: float, high: float) -> str:
+def _interval(low: float, high: float, bound: str) -> str:
+    if bound:
+        return f": the fit ran to the {bound} end of what was tried, so the data do not tell it"
     return f" ({low:.4g} to {high:.4g})" if low == low else " (a choice)"

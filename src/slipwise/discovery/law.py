@@ -4,22 +4,32 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
+from slipwise.discovery.curve_shape import CurveShape, describe_curve
 from slipwise.discovery.form import FUNCTIONS, Form
-from slipwise.discovery.law_objective import FittedLaw
-from slipwise.discovery.matching import name_of
+from slipwise.discovery.law_objective import STRENGTH, FittedLaw
+from slipwise.discovery.matching import name_of, product_at
 from slipwise.residual_map.states import WORDS
 from slipwise.short_repr import short_repr
+
+#: Points of a curve with its band, and half widths of the band in standard errors.
+_POINTS, _REACH = 41, 1.96
 
 
 @dataclass(frozen=True)
 class LawConstant:
-    """One number of a law, with its 95 % interval [SI]; a reference, which is chosen, has none (NaN)."""
+    """One number of a law, with its 95 % interval [SI]; a reference, which is chosen, has none (NaN).
+
+    Where the fit ran to a bound, `bound` is "lower" or "upper": the data leave it open, and it is no constant.
+    """
 
     name: str
     value: float
     low: float
     high: float
     unit: str
+    bound: str = ""
 
 
 @short_repr
@@ -90,6 +100,39 @@ class Law:
         if self.port in ("girder", "girder by place", "multiplies buffers"):
             return "buffer" if self.at_buffers else "girder"
         return self.port
+
+    @property
+    def shape(self) -> CurveShape | None:
+        """Its curve described without a form; None over two states."""
+        candidate = self.fitted.law.match.candidate
+        return describe_curve(candidate.curve, candidate.states[0])
+
+    @property
+    def alike(self) -> Mapping[str, float]:
+        """Effect of the catalogue -> share of the curve that it could explain alone [1]."""
+        return self.fitted.law.match.candidate.alike
+
+    @property
+    def undetermined(self) -> dict[str, str]:
+        """Name of every constant that ran to a bound of its fit -> "lower" or "upper"."""
+        return {c.name: c.bound for c in self.constants if c.bound}
+
+    def band(self) -> dict[str, list[float]]:
+        """Return the law over its state with a 95 % band, in which the forms that tie with it lie too; {} over two."""
+        match = self.fitted.law.match
+        if len(match.forms) > 1:
+            return {}
+        curve, (low, high) = match.candidate.curve, self.valid[self.states[0]]
+        over = np.linspace(low, high, _POINTS)
+        every = [(match.forms, self.fitted.values), *((t.forms, t.values) for t in self.tied_forms)]
+        drawn = np.array([values[STRENGTH] * product_at(forms, [over], values) for forms, values in every])
+        half = _REACH * np.interp(over, curve.knots[0], curve.errors())
+        return {
+            "state": over.tolist(),
+            "value": drawn[0].tolist(),
+            "low": np.minimum(drawn[0] - half, drawn.min(axis=0)).tolist(),
+            "high": np.maximum(drawn[0] + half, drawn.max(axis=0)).tolist(),
+        }
 
     @property
     def equation(self) -> str:

@@ -73,7 +73,7 @@ def _constant(leader: FittedLaw, name: str, known: Mapping[str, Interval]) -> La
     else:
         state = match.candidate.states[place_of(name)].name
         unit = "1" if constants_of(match.forms)[name].kind == "number" else UNITS.get(state, "m")
-    return LawConstant(name, leader.values[name], low, high, unit)
+    return LawConstant(name, leader.values[name], low, high, unit, found.bound if found else "")
 
 
 def _same_place(one: CurveCandidate, other: CurveCandidate) -> bool:

@@ -7,8 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from slipwise.discovery.candidate import CurveCandidate
+from slipwise.discovery.curve_shape import CurveShape, describe_curve
 from slipwise.discovery.effect_file import can_be_written, write_law
 from slipwise.discovery.law import Law, Origin
+from slipwise.discovery.law_test import LawTest
 from slipwise.display import Drawn, Tabular
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.preparation.data_corrections import DataCorrection
@@ -46,6 +48,7 @@ class Discovery(Drawn, Tabular):
         seconds: it took.
         beside: effects that the diagnosis had added to the user's model before the search for a law began.
         corrections: what was done about the data before any fit.
+        campaigns: how its first law does in every campaign whose data it was given; empty where it was one.
     """
 
     campaign: str
@@ -62,11 +65,19 @@ class Discovery(Drawn, Tabular):
     seconds: float
     beside: tuple[str, ...] = ()
     corrections: tuple[DataCorrection, ...] = ()
+    campaigns: tuple[LawTest, ...] = ()
 
     @property
     def sentence(self) -> str:
         """The answer in words."""
         return _sentence(self)
+
+    @property
+    def shape(self) -> CurveShape | None:
+        """What explains most, described without a form; None where nothing does, or over two states."""
+        if self.laws:
+            return self.laws[0].shape
+        return None if self.organised is None else describe_curve(self.organised.curve, self.organised.states[0])
 
     @property
     def origin(self) -> Origin:
@@ -134,15 +145,22 @@ class Discovery(Drawn, Tabular):
                     "constants": {
                         c.name: {"value": c.value, "low": _known(c.low), "high": _known(c.high), "unit": c.unit}
                         for c in law.constants
+                        if not c.bound
                     },
+                    "undetermined": law.undetermined,
+                    "shape": None if law.shape is None else law.shape.as_json(),
+                    "curve": law.band(),
+                    "alike": dict(law.alike),
                     "share": law.share,
                     "valid": {state: list(ends) for state, ends in law.valid.items()},
                 }
                 for law in self.laws
             ],
             "beside": list(self.beside),
+            "campaigns": [test.as_json() for test in self.campaigns],
             "corrections": [one.as_json() for one in self.corrections],
             "organised": None if self.organised is None else self.organised.label,
+            "shape": None if self.shape is None else self.shape.as_json(),
             "share": self.share,
             "held_out": {"before": _known(before), "after": _known(after)},
             "relations": {name: [_known(error) for error in errors] for name, errors in self.relations.items()},

@@ -1,36 +1,70 @@
-"""The search for one law: screened, matched with forms, fitted with everything else free; best first.
+"""The search for one law: curves weighed in the joint system, matched with forms, fitted with everything else free.
 
-A law that is missing may have dragged the base parameters far away, where curves are bent: the search for the first law
-begins from the fit and from the rated numbers of the base law, and what leaves least leads.
+What of the catalogue stands beside a curve is part of its candidate: each form is fitted beside the very effects that
+are likely with it, and begins where the joint system has the base numbers.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from slipwise.discovery.candidate import CurveCandidate
+from slipwise.discovery.curve_search import Curves, list_missing, weigh_curves
+from slipwise.discovery.curve_system import CurveSystem, make_curve_system
 from slipwise.discovery.form import forms
 from slipwise.discovery.law_objective import LEVER, FittedLaw, LawObjective, PlacedLaw, fit_law, fit_on
 from slipwise.discovery.matching import Match, matched
-from slipwise.discovery.screening import screen_states, screened_field, weighed
-from slipwise.estimation.least_squares import Solution, with_slopes
-from slipwise.model import Model
-from slipwise.noise.level import AT_FLOOR
-from slipwise.residual_map.ports import gates, girder_ports, girder_states, load_ports, opened, pad_ports, places_of
-from slipwise.residual_map.states import pad_instants, pad_states, rig_states
+from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.least_squares import Solution, get_slopes, solve, with_slopes
+from slipwise.estimation.objective import Objective
+from slipwise.relations.parameters import Term
+from slipwise.residual_map.ports import girder_ports, load_ports, opened, pad_ports, places_of
+from slipwise.residual_map.states import pad_instants
+from slipwise.selection.averaged_rows import AveragedRows
+from slipwise.selection.candidates import at_odds, list_exclusions
+from slipwise.selection.hypothesis import prepare_refit
+from slipwise.selection.linearisation import Linearisation, list_tolerances
+from slipwise.selection.posterior import Prior
 
-#: Candidates, forms of each, and matches of each start that are fitted, and of these the ones that are fitted finely.
-_CANDIDATES, _FORMS, _FITTED, _FINELY = 6, 5, 9, 3
-#: Of these candidates and matches, the ones that have a single state: two states bend further than the truth's one
-#: where the base parameters are far away.
-_SINGLE_CANDIDATES, _SINGLE = 3, 4
+#: Candidates, forms of each, and matches that are fitted, and of these the ones that are fitted finely.
+_CANDIDATES, _FORMS, _FITTED, _FINELY = 5, 5, 8, 2
+#: Matches of a single state that are fitted at least: two states bend further than the truth's one.
+_SINGLE = 3
+#: Candidates whose evidence is lower than the best one's by more are not fitted [nats].
+_NEAR = 20.0
 #: How far from the girder's centre a force on it may act, in heights of the centre [1].
 _LEVER = 3.0
-#: The motion of the rig is looked at where no state of the pads explains this much: on one motion many go with it [1].
-_OF_THE_RIG = 0.9
-#: A candidate explains at least this much of what its relation leaves above noise [1].
+#: A candidate explains at least this much of what is left without it [1].
 _LEAST = 0.1
+#: A single motion is cut into so many stretches, to be left out by turns.
+_STRETCHES = 8
+#: A fit ends where a step lowers the squared residual by less than this, and than this share of what is left [1].
+_ENOUGH, _ROUGH = 10.0, 5e-4
+
+
+@dataclass(frozen=True)
+class Ground:
+    """A fit in which a law is looked for, with the joint system there.
+
+    Attributes:
+        base: the base fit.
+        objective: with the laws that were found before.
+        solution: of the fit, with slopes of its own.
+        system: base numbers and every candidate of the catalogue.
+        terms: label -> candidate of the catalogue.
+        starts: labels of effects beside the base -> the fit with them, without a law; filled as it is asked for.
+    """
+
+    base: BaseFit
+    objective: LawObjective
+    solution: Solution
+    system: CurveSystem
+    terms: Mapping[str, Term]
+    starts: dict[frozenset[str], tuple[Objective, Solution]] = field(
+        default_factory=dict[frozenset[str], tuple[Objective, Solution]]
+    )
 
 
 @dataclass(frozen=True)
@@ -38,49 +72,161 @@ class Found:
     """What a search gives.
 
     Attributes:
-        candidates: of all screens, best first.
+        curves: of the joint system.
         fitted: laws, that which leaves least first.
     """
 
-    candidates: tuple[CurveCandidate, ...]
+    curves: Curves
     fitted: tuple[FittedLaw, ...]
 
+    @property
+    def candidates(self) -> tuple[CurveCandidate, ...]:
+        """Curves, best first."""
+        return self.curves.candidates
 
-def find_law(before: LawObjective, solution: Solution, model: Model, label: str) -> Found:
+
+def make_ground(base: BaseFit, here: Linearisation, terms: Sequence[Term]) -> Ground:
+    """Return where a diagnosis ended, as ground for the first law.
+
+    Args:
+        base: the base fit.
+        here: the linearisation of which the diagnosis' posterior is.
+        terms: candidates of the catalogue.
+    """
+    found = here.hypothesis
+    system = make_curve_system(
+        here.rows, here.left, here.slopes, here.keys, here.columns, here.tolerances,
+        frozenset(list_exclusions(terms)), _blocks(found.objective, here.rows),
+    )  # fmt: skip
+    objective = LawObjective(pad_instants(found.objective, found.solution.values), found.objective, ())
+    return Ground(base, objective, found.solution, system, {t.label: t for t in terms})
+
+
+def move_ground(ground: Ground, objective: LawObjective, solution: Solution) -> Ground:
+    """Return the ground at a fit with laws; columns of candidates hardly change, and stay as they are.
+
+    Args:
+        ground: of before.
+        objective: of the fit.
+        solution: of the fit, with slopes of its own.
+    """
+    rows, present = ground.system.rows, objective.plain.terms
+    labels = {t.label for t in present}
+    beside = [
+        c
+        for c in ground.system.columns
+        if c.label not in labels and not any(at_odds(ground.terms[c.label], t) for t in present)
+    ]
+    ends = set(solution.at_bounds)
+    kept = [j for j, f in enumerate(solution.free) if f.key not in ends]
+    keys = [solution.free[j].key for j in kept]
+    added = labels - {t.label for t in ground.base.objective.terms}
+    left, slopes = solution.residuals.stacked(objective.fitted), rows.average(solution.jacobian)
+    tolerances = list_tolerances(solution, objective.plain.specimen, added, keys)
+    system = make_curve_system(
+        rows, rows.average(left), slopes[:, kept], keys, beside, tolerances, ground.system.apart, ground.system.block
+    )
+    return Ground(ground.base, objective, solution, system, ground.terms)
+
+
+def find_law(ground: Ground, label: str) -> Found:
     """Search for one more law.
 
     Args:
-        before: the fit's objective, with laws that were found before.
-        solution: of the fit, with slopes of its own.
-        model: the user's model, whose law has rated numbers.
+        ground: where it is looked for.
         label: of the law, for the keys of its numbers.
     """
-    candidates: list[CurveCandidate] = []
+    here, solution = ground.objective, ground.solution
+    curves = weigh_curves(ground.system, here.plain, here.every, solution.values, solution.free, ground.terms)
     tried: list[FittedLaw] = []
-    for start in _starts(before, solution, model) if not before.laws else [solution]:
-        every = pad_instants(before.plain, start.values)
-        here = replace(before, every=every)
-        screened = _screened(here, start)
-        candidates += screened
-        for match in _matches(screened):
-            tried.append(fit_law(here, start, _placed(label, match, here), match.strength))
-            tried.sort(key=lambda f: f.solution.cost)
-            tried[_FINELY:] = [_without_slopes(f) for f in tried[_FINELY:]]
+    for match in _matches(curves.candidates):
+        start = _start_with(ground, match.candidate)
+        placed = _placed(label, match, start[0])
+        tried.append(fit_law(*start, placed, match.strength))
+        tried.sort(key=lambda f: f.solution.cost)
+        tried[_FINELY:] = [_without_slopes(f) for f in tried[_FINELY:]]
     fine = [fit_on(_where_it_acts(_carried_by_its_fit(f))) for f in tried[:_FINELY]]
-    return Found(
-        tuple(sorted(candidates, key=lambda c: -c.share)),
-        tuple(sorted([*fine, *tried[_FINELY:]], key=lambda f: f.solution.cost)),
-    )
+    return Found(curves, tuple(sorted([*fine, *tried[_FINELY:]], key=lambda f: f.solution.cost)))
 
 
-def _matches(screened: Sequence[CurveCandidate]) -> list[Match]:
-    """Return the matches to be fitted: the best of the best candidates, and the best of one state each."""
-    chosen = [c for c in screened[:_CANDIDATES] if c.share > _LEAST]
-    single = [c for c in screened if len(c.states) == 1 and c.share > _LEAST][:_SINGLE_CANDIDATES]
-    every = {id(c): matched(c, forms())[:_FORMS] for c in (*chosen, *single)}
-    best = sorted((m for c in chosen for m in every[id(c)]), key=lambda m: -m.gain)[:_FITTED]
-    alone = sorted((m for c in single for m in every[id(c)]), key=lambda m: -m.gain)[:_SINGLE]
-    return [*best, *(m for m in alone if m not in best)]
+def without_law(ground: Ground, found: FittedLaw) -> tuple[Objective, Solution]:
+    """Return the fit with the effects beside a law, but without any law."""
+    return _beside(ground, found.law.match.candidate)
+
+
+def add_missing(ground: Ground) -> Ground | None:
+    """Return the ground with effects of the catalogue that are likely beside its laws; None where none is."""
+    missing = list_missing(ground.system, ground.terms)
+    labels = {t.label for t in ground.objective.plain.terms}
+    terms = [ground.terms[label] for label in missing if label not in labels]
+    if not terms:
+        return None
+    values, free = dict(ground.solution.values), list(ground.solution.free)
+    for t in terms:
+        values |= {f"{t.label}.{n}": x for n, x in missing[t.label].items()}
+        free += [f for f in t.free(missing[t.label])]
+    plain = ground.objective.plain.adding(*terms)
+    objective = replace(ground.objective, plain=plain).without_results()
+    solution = solve(objective, values, free, most=8, enough=_ENOUGH, rough=_ROUGH, begin=get_slopes(ground.solution))
+    return move_ground(ground, objective, with_slopes(objective, solution))
+
+
+def _blocks(objective: Objective, rows: AveragedRows) -> NDArray[np.int64]:
+    """Return the motion of every averaged row (q,), or its stretch of time where there is one motion only."""
+    motion = np.array([objective.measurements.motion_of[place] for place in range(len(objective.runs))])[rows.run]
+    _, block = np.unique(motion, return_inverse=True)
+    if block.max(initial=0) > 0:
+        return block.astype(np.int64)
+    counts = [len(series.edges) for series in rows.series]
+    return np.concatenate([np.arange(count) * _STRETCHES // count for count in counts])
+
+
+def _matches(weighed: Sequence[CurveCandidate]) -> list[Match]:
+    """Return the matches to be fitted: the likeliest of the likeliest candidates, and the likeliest of one state."""
+    likely = [c for c in weighed if c.share > _LEAST and c.evidence > max(weighed[0].evidence - _NEAR, 0.0)]
+    kept: dict[tuple[object, ...], CurveCandidate] = {}
+    for c in likely:  # of lags of one state the likeliest: the lag is fitted
+        kept.setdefault((*(s.name for s in c.states), c.port.name, c.gate.name), c)
+    every = [m for c in list(kept.values())[:_CANDIDATES] for m in matched(c, forms())[:_FORMS]]
+    every.sort(key=_evidence, reverse=True)
+    alone = [m for m in every if len(m.forms) == 1]
+    return [*every[:_FITTED], *(m for m in alone[:_SINGLE] if m not in every[:_FITTED])]
+
+
+def _evidence(match: Match) -> float:
+    """Return the evidence of a candidate's curve less what its form leaves of it, samples counted few [nats]."""
+    curve = match.candidate.curve
+    best = curve.gain
+    left = max(float(curve.whole.sum()) - best, 1.0)
+    return match.candidate.evidence - 0.5 * Prior().independent * float(np.log1p(max(best - match.gain, 0.0) / left))
+
+
+def _beside(ground: Ground, candidate: CurveCandidate) -> tuple[Objective, Solution]:
+    """Return the fit with the effects beside a candidate, but without a law of the present search."""
+    here = ground.objective
+    if here.laws:
+        return here.plain, ground.solution
+    key = frozenset(candidate.beside)
+    if key not in ground.starts:
+        terms = [ground.terms[label] for label in candidate.beside]
+        plain = here.plain.having((*ground.base.objective.terms, *terms))
+        values, free = prepare_refit(ground.base, plain, terms, candidate.beside)
+        values |= {k: v for k, v in candidate.start.items() if k in values}
+        known = {k: v for k, v in get_slopes(ground.solution).items() if k in {f.key for f in free}}
+        solution = solve(plain, values, free, most=6, enough=_ENOUGH, rough=_ROUGH, begin=known)
+        ground.starts[key] = plain, solution
+    return ground.starts[key]
+
+
+def _start_with(ground: Ground, candidate: CurveCandidate) -> tuple[LawObjective, Solution]:
+    """Return objective and solution from which a candidate's forms are fitted, base numbers where it has them."""
+    if ground.objective.laws:
+        return ground.objective, ground.solution
+    plain, solution = _beside(ground, candidate)
+    values = {**solution.values, **{k: v for k, v in candidate.start.items() if k in solution.values}}
+    for label, own in candidate.beside.items():
+        values |= {f"{label}.{n}": v for n, v in own.items() if f"{label}.{n}" in values}
+    return replace(ground.objective, plain=plain).without_results(), replace(solution, values=values)
 
 
 def _without_slopes(found: FittedLaw) -> FittedLaw:
@@ -133,43 +279,6 @@ def _placed(label: str, match: Match, here: LawObjective) -> PlacedLaw:
         on_girder = match.candidate.port.relation == "girder" and "pitch" in here.relations
         return PlacedLaw(label, match, everywhere, longest_lever=_LEVER * height if on_girder else 0.0)
     return PlacedLaw(label, match, tuple(opened(match.candidate.gate, places_of(here.plain), runs)))
-
-
-def _screened(here: LawObjective, start: Solution) -> list[CurveCandidate]:
-    """Screen every relation with more than noise; shares are of what all of them leave."""
-    states = pad_states(here.every)
-    fields = [screened_field(here.plain, start, r) for r in ("pads", "girder", "heave") if r in here.relations]
-    fields = [f for f in fields if f.residual @ f.residual >= AT_FLOOR**2 * len(f.residual)]
-    whole = max(sum(f.excess for f in fields), 1e-9)
-    out: list[CurveCandidate] = []
-    for field in fields:
-        if field.relation == "pads":
-            places = places_of(here.plain)
-            tried = gates(places, here.plain.pads) if here.plain.specimen.free else []
-            ports = pad_ports(here.every)
-            found = screen_states(field, states, ports, tried, places, here.every.states)
-            if max((c.share for c in found), default=0.0) < _OF_THE_RIG:
-                found += screen_states(field, rig_states(here.every), ports, [], places, here.every.states)
-        else:
-            on_load = field.relation == "heave"
-            ports = load_ports(here.every) if on_load else girder_ports(here.plain, start.values, here.every)
-            found = screen_states(field, girder_states(states), ports, [], [], here.every.states)
-        out += [replace(c, share=c.share * field.excess / whole) for c in found]
-    return sorted(out, key=lambda c: -weighed(c))
-
-
-def _starts(before: LawObjective, solution: Solution, model: Model) -> list[Solution]:
-    """Return the fit, and the fit with the base law's own numbers as rated where they are others."""
-    own = {f"{u.label}.{name}": value for u in model.uses for name, value in u.numbers.items()}
-    rated = {k: v for k, v in own.items() if k in solution.values}
-    if "rig.shear_strength" in solution.values:
-        rated["rig.shear_strength"] = model.specimen.shear_strength
-    values = {**solution.values, **rated}
-    if values == solution.values:
-        return [solution]
-    residuals = before.residuals(values)
-    there = replace(solution, values=values, residuals=residuals, cost=residuals.cost(before.fitted))
-    return [solution, with_slopes(before, there)]
 
 
 def different(fitted: Sequence[FittedLaw]) -> list[FittedLaw]:

@@ -108,6 +108,34 @@ def count_figures(low: float, high: float) -> int:
 
 def compute_intervals(base: BaseFit) -> Intervals:
     """Return the intervals of a base fit."""
+    solution, rows = base.solution, _rows(base)
+    found = _two_sided(base, *rows)
+    low = [j for j, f in enumerate(solution.free) if is_strength(base, f) and not found.entries[j].low > f.low]
+    limits = on_every_core(
+        lambda i: _limited(base, found.entries, low[i], *rows),
+        len(low),
+        memory=solution.fit_memory,
+    )
+    limited = dict(zip(low, limits, strict=True))
+    return replace(found, entries=tuple(limited.get(j, e) for j, e in enumerate(found.entries)))
+
+
+def compute_two_sided_intervals(base: BaseFit) -> Intervals:
+    """Return the intervals of a base fit, those of strengths that may be absent two-sided as all others."""
+    return _two_sided(base, *_rows(base))
+
+
+def _two_sided(base: BaseFit, left: Array, block: NDArray[np.int64], shared: Shared) -> Intervals:
+    solution, objective = base.solution, base.objective
+    found = compute_fit_intervals(solution.free, solution.values, solution.jacobian, left, block, shared)
+    own_lag = {f"{t.label}.{t.effect.lag}" for t in objective.terms if t.effect.lag}
+    ends = {f.key: (f.low, f.high) for f in solution.free}
+    entries = (_widened_by_card_delay(e, *ends[e.key]) if e.key in own_lag else e for e in found.entries)
+    return replace(found, entries=tuple(entries))
+
+
+def _rows(base: BaseFit) -> tuple[Array, NDArray[np.int64], Shared]:
+    """Return the residual (m,), the block of time of every row (m,), and what a run's timing does to it."""
     solution, objective = base.solution, base.objective
     rows: list[NDArray[np.int64]] = []
     start = 0
@@ -120,21 +148,7 @@ def compute_intervals(base: BaseFit) -> Intervals:
         of_sample = (np.arange(len(of.time)) * of.dt / length).astype(np.int64) + offsets[of.run]
         rows.append(np.repeat(of_sample, of.columns.shape[1]))
     left = solution.residuals.stacked(objective.fitted)
-    block = np.concatenate(rows)
-    shared = _shared(base, len(left))
-    found = compute_fit_intervals(solution.free, solution.values, solution.jacobian, left, block, shared)
-    own_lag = {f"{t.label}.{t.effect.lag}" for t in objective.terms if t.effect.lag}
-    ends = {f.key: (f.low, f.high) for f in solution.free}
-    entries = (_widened_by_card_delay(e, *ends[e.key]) if e.key in own_lag else e for e in found.entries)
-    found = replace(found, entries=tuple(entries))
-    low = [j for j, f in enumerate(solution.free) if is_strength(base, f) and not found.entries[j].low > f.low]
-    limits = on_every_core(
-        lambda i: _limited(base, found.entries, low[i], left, block, shared),
-        len(low),
-        memory=solution.fit_memory,
-    )
-    limited = dict(zip(low, limits, strict=True))
-    return replace(found, entries=tuple(limited.get(j, e) for j, e in enumerate(found.entries)))
+    return left, np.concatenate(rows), _shared(base, len(left))
 
 
 def _shared(base: BaseFit, count: int) -> Shared:

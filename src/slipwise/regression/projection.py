@@ -7,7 +7,7 @@ import numpy as np
 from slipwise.arrays import Array
 
 
-def basis_of(jacobian: Array) -> Array:
+def _basis_of(jacobian: Array) -> Array:
     """Return an orthonormal basis (m, <= k) of what the columns (m, k) of a Jacobian can do."""
     scale = np.sqrt(np.einsum("ij,ij->j", jacobian, jacobian))
     kept = jacobian[:, scale > 0.0] / scale[scale > 0.0]
@@ -15,12 +15,7 @@ def basis_of(jacobian: Array) -> Array:
     return basis[:, np.abs(np.diag(triangle)) > 1e-9]
 
 
-def project_away(basis: Array, vector: Array) -> Array:
-    """Project a vector (m,) away from an orthonormal basis (m, k)."""
-    return vector - basis @ (basis.T @ vector)
-
-
 def make_projector(jacobian: Array) -> Callable[[Array], Array]:
     """Return the projection away from the columns (m, k) of a Jacobian."""
-    basis = basis_of(jacobian)
-    return lambda v: project_away(basis, v)
+    basis = _basis_of(jacobian)
+    return lambda v: v - basis @ (basis.T @ v)

@@ -65,6 +65,17 @@ class ResidualCurve:
         inverse = np.linalg.inv(_with_ridge(self.normal.sum(axis=0)))
         return np.sqrt(np.maximum(np.diag(inverse), 0.0) * self.scatter * per_independent)
 
+    def errors_about_mean(self) -> Array:
+        """Return the standard errors of the heights about their mean (K,): what moves all of them alike leaves these.
+
+        A base number that makes up for a constant leaves the mean open, and the shape as sure as it is.
+        """
+        inverse = np.linalg.inv(_with_ridge(self.normal.sum(axis=0)))
+        scattered = np.sqrt(np.outer(self.scatter, self.scatter)) * inverse
+        finite = np.where(np.isfinite(scattered), scattered, 0.0)
+        about = np.eye(len(finite)) - 1.0 / len(finite)
+        return np.sqrt(np.maximum(np.diag(about @ finite @ about.T), 0.0))
+
     def carried_over(self) -> float:
         """Return the drop of the squared residual of each block by the curve that the others ask for, added up [1]."""
         normal, drive = self.normal.sum(axis=0), self.drive.sum(axis=0)
@@ -84,33 +95,32 @@ class ResidualCurve:
 
 
 def fit_curve(
-    splines: SplineBasis, states: Sequence[Array], factor: Array, residual: Array,
-    block: NDArray[np.int64] | None = None, base: Array | None = None,
-) -> ResidualCurve:  # fmt: skip
+    splines: SplineBasis,
+    states: Sequence[Array],
+    factor: Array,
+    residual: Array,
+    block: NDArray[np.int64] | None = None,
+) -> ResidualCurve:
     """Fit a curve over states to a residual.
 
     Args:
         splines: of which the curve is made.
         states: each (m,).
         factor: (m,) what the curve is multiplied by to be the residual.
-        residual: (m,), what base parameters can do taken out.
+        residual: (m,).
         block: (m,) the block of each sample; all are one where not given.
-        base: (m, k) orthonormal, of what base parameters can do, which is taken out of the curve as well.
     """
     columns: Any = csr_array(diags_array(factor) @ splines.columns(states))
-    base = np.zeros((len(residual), 0)) if base is None else base
-    swallowed = columns.T @ base  # of each column, along each direction of the base
     block = np.zeros(len(residual), dtype=np.int64) if block is None else block
     normal, drive, whole = [], [], []
     for number in np.unique(block):
         here = block == number
-        part, own, left = columns[here], base[here], residual[here]
-        crossed = (part.T @ own) @ swallowed.T
-        normal.append((part.T @ part).toarray() - crossed - crossed.T + swallowed @ (own.T @ own) @ swallowed.T)
-        drive.append(part.T @ left - swallowed @ (own.T @ left))
+        part, left = columns[here], residual[here]
+        normal.append((part.T @ part).toarray())
+        drive.append(part.T @ left)
         whole.append(float(left @ left))
     heights = _solve(np.sum(normal, axis=0), np.sum(drive, axis=0))
-    left = residual - columns @ heights + base @ (swallowed.T @ heights)
+    left = residual - columns @ heights
     weight = columns.power(2)
     count = np.bincount(columns.indices[columns.data != 0.0], minlength=columns.shape[1])
     mean = (weight.T @ left**2) / np.maximum(weight.sum(axis=0), 1e-300)

@@ -42,6 +42,20 @@ WORDS: dict[str, str] = {
     "velocity": "the slip velocity", "vertical": "the vertical acceleration of the girder",
     "temperature": "the temperature of the sliding face",
 }  # fmt: skip
+#: State of laws -> the motion or the run that would vary it.
+VARIED_BY: dict[str, str] = {
+    "speed": "a motion with other peak speeds", "slip": "a motion with a longer stroke",
+    "load": "vertical motion of the table, or another mass", "time": "a longer run",
+    "speed_rate": "a motion that reverses harder", "lagged_load": "vertical motion of the table",
+    "load_rate": "vertical motion of the table", "time_since_reversal": "a motion with slower and faster reversals",
+    "distance_since_reversal": "a motion with strokes of unlike length",
+    "last_peak_speed": "a motion with strokes of unlike speed, as an earthquake has",
+    "last_stroke": "a motion with strokes of unlike length, as an earthquake has", "slid": "a longer run",
+    "heat": "a longer or faster run, or runs without a rest between them",
+    "outward": "a motion that goes to both sides of the middle", "path_curvature": "a motion in two directions",
+    "rocking_rate": "a motion that rocks the girder", "table_velocity": "a motion of the table",
+    "table_acceleration": "a motion of the table",
+}  # fmt: skip
 #: A state that varies by less than this share of its size cannot be judged [1].
 _VARIES = 1e-3
 

@@ -7,9 +7,11 @@ taken out of residual and columns alike.
 """
 
 from dataclasses import dataclass
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
 
 from slipwise.arrays import Array
 from slipwise.estimation.objective import Objective
@@ -72,6 +74,29 @@ class AveragedRows:
                 part = part - each.hum @ (each.hum.T @ part)
             sums = np.add.reduceat(part, each.edges, axis=0)
             out.append(sums * each.weight.reshape(-1, *([1] * (part.ndim - 1))))
+        return np.concatenate(out)
+
+    def average_sparse(self, relation: str, stacked: csr_array, start: int) -> Array:
+        """Average sparse samples of one relation alone as `average` does, (m, k) -> (q, k).
+
+        Args:
+            relation: which.
+            stacked: its samples.
+            start: place of the first of them among those of all relations.
+        """
+        number, first, samples = self.relations.index(relation), 0, cast("Any", stacked)
+        out: list[Array] = [np.zeros((0, samples.shape[1]))]
+        for each in self.series:
+            here, first = first, first + len(each.edges)
+            if self.relation[here] != number:
+                continue
+            part = samples[each.rows - start]
+            # rows that are averaged follow each other: what they hold is summed as one row's
+            ends = part.indptr[np.r_[each.edges, len(each.rows)]]
+            sums = csr_array((part.data, part.indices, ends), shape=(len(each.edges), part.shape[1])).toarray()
+            if each.hum.size:
+                sums = sums - np.add.reduceat(each.hum, each.edges, axis=0) @ (part.T @ each.hum).T
+            out.append(sums * each.weight[:, None])
         return np.concatenate(out)
 
 

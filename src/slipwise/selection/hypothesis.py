@@ -81,6 +81,38 @@ def refit(
         most: Jacobians at most.
     """
     objective = base.objective.adding(*terms)
+    values, free = prepare_refit(base, objective, terms, starts, before)
+    labels = {t.label for t in before.terms} if before is not None else set[str]()
+    if not objective.balanced and before is None:
+        solution = _several_starts(objective, values, free, terms)
+    else:
+        known = None  # a slider's laws change it too much for slopes of before, and are quick
+        if objective.balanced:  # a hypothesis of other runs gives a start, but no slopes
+            alike = before is not None and len(before.solution.jacobian) == len(base.solution.jacobian)
+            known = get_slopes(before.solution if before is not None and alike else base.solution)
+        solution = solve(objective, values, free, most=most, enough=_ENOUGH, rough=_ROUGH, known=known)
+        contained = before if before is not None and labels <= {t.label for t in terms} else base
+        if solution.cost > contained.solution.cost:  # the base has moved too far for its slopes of before
+            solution = solve(objective, solution.values, free, most=most, enough=_ENOUGH, rough=_ROUGH)
+    return _hypothesis(terms, objective, solution)
+
+
+def prepare_refit(
+    base: BaseFit,
+    objective: Objective,
+    terms: Sequence[Term],
+    starts: Mapping[str, Mapping[str, float]],
+    before: Hypothesis | None = None,
+) -> tuple[dict[str, float], list[Free]]:
+    """Return where a refit begins, key -> value of everything, and what is free in it.
+
+    Args:
+        base: the base fit.
+        objective: base and terms.
+        terms: effects to add.
+        starts: label -> parameters to start from.
+        before: a hypothesis whose numbers are a better start than the base's.
+    """
     values = dict(base.solution.values)
     if before is not None:  # numbers of effects that are no longer there would act, or be begun from
         kept = values.keys() | set(objective.inertias)
@@ -102,18 +134,7 @@ def refit(
         if key not in present:
             free.append(make_free_inertia(objective.specimen, key))
             values.setdefault(key, free[-1].start)
-    if not objective.balanced and before is None:
-        solution = _several_starts(objective, values, free, terms)
-    else:
-        known = None  # a slider's laws change it too much for slopes of before, and are quick
-        if objective.balanced:  # a hypothesis of other runs gives a start, but no slopes
-            alike = before is not None and len(before.solution.jacobian) == len(base.solution.jacobian)
-            known = get_slopes(before.solution if before is not None and alike else base.solution)
-        solution = solve(objective, values, free, most=most, enough=_ENOUGH, rough=_ROUGH, known=known)
-        contained = before if before is not None and labels <= {t.label for t in terms} else base
-        if solution.cost > contained.solution.cost:  # the base has moved too far for its slopes of before
-            solution = solve(objective, solution.values, free, most=most, enough=_ENOUGH, rough=_ROUGH)
-    return _hypothesis(terms, objective, solution)
+    return values, free
 
 
 def _hypothesis(terms: Sequence[Term], objective: Objective, solution: Solution) -> Hypothesis:

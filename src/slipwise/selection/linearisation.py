@@ -1,6 +1,6 @@
 """A fitted model with what every candidate changes in its residual, counted from the absence of each effect."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -8,8 +8,10 @@ import numpy as np
 from slipwise.arrays import Array, Mask
 from slipwise.campaign.materiality import Materiality
 from slipwise.estimation.base_fit import BaseFit
+from slipwise.estimation.least_squares import Solution
 from slipwise.relations.measurement import is_shifting
 from slipwise.relations.parameters import Free, Term
+from slipwise.rig import Specimen
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import OF_MODEL, CandidateColumn, make_column
 from slipwise.selection.hypothesis import Hypothesis
@@ -57,6 +59,11 @@ class Linearisation:
     statistics: Statistics
 
     @property
+    def keys(self) -> tuple[str, ...]:
+        """Names of the numbers that are fitted whatever is missing (b,)."""
+        return tuple(number.key for number in self.numbers)
+
+    @property
     def beside(self) -> list[CandidateColumn]:
         """Columns of candidates that are not in the model."""
         return [c for c in self.columns if c.form != OF_MODEL]
@@ -98,7 +105,8 @@ def linearise(
     ends = set(solution.at_bounds)  # what has run against a bound makes up for nothing
     free = [j for j, key in enumerate(keys) if key not in strong | ends]  # of a strength the whole effect tells
     of_base = np.array([keys[j].rpartition(".")[0] not in labels for j in free], bool)
-    kept, tolerances = slopes[:, free], _tolerances(found, [keys[j] for j in free])
+    kept, names = slopes[:, free], tuple(keys[j] for j in free)
+    tolerances = list_tolerances(solution, found.objective.specimen, labels, names)
     every = (*columns, *own)
     statistics = compute_statistics(rows, left, fitted, kept, of_base, every)
     numbers = tuple(solution.free[j] for j in free)
@@ -123,16 +131,23 @@ def _whole_effect(here: BaseFit, term: Term, rows: AveragedRows, slopes: Array, 
     )
 
 
-def _tolerances(found: Hypothesis, keys: Sequence[str]) -> dict[int, tuple[float, float]]:
-    """Return what is known of numbers that are fitted whatever is missing; see `compute_posterior`."""
+def list_tolerances(
+    solution: Solution, specimen: Specimen, labels: Collection[str], keys: Sequence[str]
+) -> dict[int, tuple[float, float]]:
+    """Return what is known of numbers that are fitted whatever is missing; see `compute_posterior`.
+
+    Args:
+        solution: of the fit.
+        specimen: rated values.
+        labels: of the terms that were added to the base.
+        keys: of the numbers.
+    """
     out: dict[int, tuple[float, float]] = {}
-    free = {f.key: f for f in found.solution.free}
-    labels = {t.label for t in found.terms}
+    free = {f.key: f for f in solution.free}
     for place, key in enumerate(keys):
         f = free[key]
         if key == "rig.mass":
-            rated = found.objective.specimen.mass
-            out[place] = ((rated - found.solution.values[key]) / f.scale, _MASS * rated / f.scale)
+            out[place] = ((specimen.mass - solution.values[key]) / f.scale, _MASS * specimen.mass / f.scale)
         elif key.rpartition(".")[0] in labels:
-            out[place] = (0.0, _CONSTANTS * float(np.clip(abs(found.solution.values[key]) / f.scale, _LEAST, 1.0)))
+            out[place] = (0.0, _CONSTANTS * float(np.clip(abs(solution.values[key]) / f.scale, _LEAST, 1.0)))
     return out

@@ -123,9 +123,20 @@ class Posterior:
     gain: Array
 
 
+@short_repr
 @dataclass(frozen=True)
-class _Forms:
-    """Columns by form, forms by term."""
+class ColumnGroups:
+    """Columns by form, forms by term.
+
+    Attributes:
+        labels: (T,) of the terms.
+        effects: (T,) names of their effects.
+        gauge: (T,) whether they are faults of gauges.
+        owner: (F,) term of each form.
+        number: (F,) of each form among its term's.
+        columns: (F, w) places of its columns.
+        length: (F,) how many of them count.
+    """
 
     labels: tuple[str, ...]
     effects: tuple[str, ...]
@@ -136,7 +147,8 @@ class _Forms:
     length: Ints
 
 
-def _group(columns: Sequence[Competing]) -> _Forms:
+def group_columns(columns: Sequence[Competing]) -> ColumnGroups:
+    """Return which columns make which form of which term."""
     labels = list(dict.fromkeys(c.label for c in columns))
     forms: dict[tuple[str, int], list[int]] = {}
     for i, c in enumerate(columns):
@@ -146,7 +158,7 @@ def _group(columns: Sequence[Competing]) -> _Forms:
     for row, members in enumerate(forms.values()):
         table[row, : len(members)] = members
     of = {c.label: c for c in columns}
-    return _Forms(
+    return ColumnGroups(
         tuple(labels),
         tuple(of[label].effect for label in labels),
         np.array([of[label].gauge for label in labels], bool),
@@ -155,6 +167,19 @@ def _group(columns: Sequence[Competing]) -> _Forms:
         table,
         np.array([len(v) for v in forms.values()], np.int64),
     )
+
+
+def compute_log_odds(forms: ColumnGroups, columns: Sequence[Competing]) -> Array:
+    """Return the logarithm of the prior of each form at one place against none (F,)."""
+    prior, effects = Prior(), forms.effects
+    shared = {e: effects.count(e) for e in effects}
+    per_form = np.bincount(forms.owner, minlength=len(forms.labels))
+    whole = np.array([not columns[of].strength for of in forms.columns[:, 0]], bool)
+    among = np.where(whole, 1, per_form[forms.owner])  # a whole fit is at its best form, and pays for its numbers
+    odds = np.log([prior.chance / shared[effects[t]] / prior.places for t in forms.owner]) - np.log(among)
+    # numbers that were fitted with a form cost what they do in any choice of a model (Schwarz 1978, Ann. Stat. 6)
+    numbers = np.array([columns[of].numbers for of in forms.columns[:, 0]])
+    return odds - 0.5 * numbers * np.log(prior.independent)
 
 
 @dataclass(frozen=True)
@@ -233,7 +258,7 @@ def compute_posterior(
 class _Places:
     """What may take a place, before any data."""
 
-    forms: _Forms
+    forms: ColumnGroups
     odds: Array
     excludes: NDArray[np.bool_]
     one_sided: NDArray[np.bool_]
@@ -241,16 +266,8 @@ class _Places:
 
 
 def _prepare_places(columns: Sequence[Competing], apart: Collection[tuple[str, str]]) -> _Places:
-    prior, forms = Prior(), _group(columns)
-    effects = forms.effects
-    shared = {e: effects.count(e) for e in effects}
-    per_form = np.bincount(forms.owner, minlength=len(forms.labels))
-    whole = np.array([not columns[of].strength for of in forms.columns[:, 0]])
-    among = np.where(whole, 1, per_form[forms.owner])  # a whole fit is at its best form, and pays for its numbers
-    odds = np.log([prior.chance / shared[effects[t]] / prior.places for t in forms.owner]) - np.log(among)
-    # numbers that were fitted with a form cost what they do in any choice of a model (Schwarz 1978, Ann. Stat. 6)
-    numbers = np.array([columns[of].numbers for of in forms.columns[:, 0]])
-    odds -= 0.5 * numbers * np.log(prior.independent)
+    prior, forms = Prior(), group_columns(columns)
+    odds = compute_log_odds(forms, columns)
     excludes = np.eye(len(forms.labels), dtype=np.bool_)
     for one, other in apart:
         if one in forms.labels and other in forms.labels:
@@ -340,7 +357,7 @@ def make_normal_system(
 
 
 def _draw(
-    precision: Array, pulled: Array, forms: _Forms, widths: Array, one_sided: NDArray[np.bool_],
+    precision: Array, pulled: Array, forms: ColumnGroups, widths: Array, one_sided: NDArray[np.bool_],
     visited: Sequence[tuple[Ints, Ints, Array]], draws: int,
 ) -> tuple[Ints, Array]:  # fmt: skip
     """Draw from what was visited, each once, by its posterior: forms of the places (n, p), and sizes (n, K)."""
@@ -372,7 +389,7 @@ def _draw(
 
 
 def _as_posterior(
-    statistics: Statistics, forms: _Forms, taken: Ints, sizes: Array, level: Array, gain: Array
+    statistics: Statistics, forms: ColumnGroups, taken: Ints, sizes: Array, level: Array, gain: Array
 ) -> Posterior:
     shape = len(taken), len(forms.labels)
     size, seen = np.zeros(shape), np.zeros(shape)

@@ -257,7 +257,7 @@ def _worth_a_replay(
             at = forms == form
             if np.mean(at) < _WORTH_A_REPLAY or _is_whole(here, label, int(form)):
                 continue  # its size was replayed
-            values = _values_at(here, posterior, of[label], int(form), at)
+            values = values_of_form(here.columns, posterior.strengths[at].mean(axis=0), of[label], int(form))
             out[label, int(form)] = values, float(np.mean(posterior.sizes[at, t]))
     return out
 
@@ -277,25 +277,23 @@ def _is_whole(here: Linearisation, label: str, form: int) -> bool:
     return any(c.label == label and c.form == form and not c.strength for c in here.beside)
 
 
-def _values_at(
-    here: Linearisation, posterior: Posterior, term: Term, form: int, at: NDArray[np.bool_]
-) -> dict[str, float]:
-    """Return the values of a term's parameters at one form, its strengths as large as on average in some samples."""
+def values_of_form(columns: Sequence[CandidateColumn], sizes: Array, term: Term, form: int) -> dict[str, float]:
+    """Return the values of a term's parameters at one form, its strengths at sizes (K,) of all columns [limits]."""
     effect = term.effect
-    members = [i for i, c in enumerate(here.columns) if c.label == term.label and c.form == form]
-    first = here.columns[members[0]]
+    members = [i for i, c in enumerate(columns) if c.label == term.label and c.form == form]
+    first = columns[members[0]]
     values = dict(first.values)
     if form == OF_MODEL:
-        share = float(posterior.strengths[at, members[0]].mean()) * first.unit
+        share = float(sizes[members[0]]) * first.unit
         ends = {p.name: float(p.neutral or 0.0) for p in strengths(effect)}
         return values | {name: end + share * (values[name] - end) for name, end in ends.items()}
     if not first.strength:
         return values
     values |= {p.name: float(p.neutral or 0.0) for p in strengths(effect)}
     for i in members:
-        c = here.columns[i]
+        c = columns[i]
         p = effect.parameter(c.strength)
-        values[c.strength] = float(np.clip(c.neutral + posterior.strengths[at, i].mean() * c.unit, p.low, p.high))
+        values[c.strength] = float(np.clip(c.neutral + sizes[i] * c.unit, p.low, p.high))
     return values
 
 
@@ -365,5 +363,6 @@ def list_likely(
         values, counts = np.unique(forms[forms != -1], return_counts=True)
         form = int(values[counts.argmax()])
         label = posterior.labels[t]
-        out[label] = _values_at(here, posterior, of[label], form, forms == form)
+        sizes = posterior.strengths[forms == form].mean(axis=0)
+        out[label] = values_of_form(here.columns, sizes, of[label], form)
     return out

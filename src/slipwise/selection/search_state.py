@@ -13,6 +13,7 @@ from slipwise.selection.explained_alone import ExplainedAlone
 from slipwise.selection.hypothesis import Hypothesis, polish, refit
 from slipwise.selection.inclusion import Inclusion
 from slipwise.selection.jacobian_memory import ROOM, complete_jacobian, drop_jacobian, lightened, size_of
+from slipwise.selection.linearisation import Linearisation
 from slipwise.selection.weighed_model import WeighedModel
 from slipwise.short_repr import short_repr
 
@@ -37,6 +38,7 @@ class Search:
         final_refit: the hypothesis at which the search ended, refitted with the noise of its own law; None for the
             base.
         weighed: of which the inclusions are; None where no posterior was computed.
+        linearisation: at which that posterior was computed, with the columns of all candidates; None where none was.
     """
 
     base: BaseFit
@@ -49,6 +51,7 @@ class Search:
     unexplained: Mapping[str, float] = field(default_factory=dict[str, float])
     final_refit: Hypothesis | None = None
     weighed: WeighedModel | None = None
+    linearisation: Linearisation | None = None
 
     @property
     def final(self) -> Hypothesis:

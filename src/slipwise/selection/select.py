@@ -124,7 +124,10 @@ def _judge(base: BaseFit, proposed: _Proposed, tell: Callable[[str, float], None
     unexplained = compute_unexplained(proposal)
     weighed = keep_weighed_model(proposal.linearisation, proposal.posterior, proposal.units, proposal.apart)
     inclusions = _inclusions(proposal)
-    state = Search(base, proposed.cannot, candidates, (), (origin,), alone, inclusions, unexplained, weighed=weighed)
+    state = Search(
+        base, proposed.cannot, candidates, (), (origin,), alone, inclusions, unexplained, weighed=weighed,
+        linearisation=proposal.linearisation,
+    )  # fmt: skip
     if found is not None:
         state = replace(state, tried=(found,))
         state, found = _with_whole_numbers(state, found)

@@ -18,7 +18,9 @@ from slipwise.discovery.matching import Match, constants_of, product_at
 from slipwise.discovery.result import Discovery
 from slipwise.effects import LAGGING, load_effect
 from slipwise.errors import SettingError
+from slipwise.residual_map.curve import ResidualCurve
 from slipwise.residual_map.ports import EVERYWHERE, Gate, Port
+from slipwise.residual_map.splines import SplineBasis
 from slipwise.residual_map.states import UNITS, DrivingState
 
 NAN = math.nan
@@ -30,13 +32,25 @@ class Fitted(FittedLaw):
     rated_load = 2e4  # pyright: ignore[reportAssignmentType]
     buffers = 2  # pyright: ignore[reportAssignmentType]
 
+    @property
+    def values(self) -> dict[str, float]:
+        return {**self.law.match.constants, "strength": 0.2}
+
+
+def curve_over(count: int) -> ResidualCurve:
+    splines = SplineBasis((np.linspace(0.0, 1.0, 5),) * count, 1)
+    size = 5**count
+    ones = np.ones(size)
+    return ResidualCurve(splines, np.eye(size)[None], ones[None], np.ones(1), np.ones(size, dtype=np.int64), ones)
+
 
 def law_of(port: str, states: tuple[str, ...], form_names: tuple[str, ...], gate: Gate = EVERYWHERE) -> Law:
     chosen = tuple(forms()[name] for name in form_names)
     numbers = {name: 0.7 + 0.1 * i for i, name in enumerate(constants_of(chosen))}
     lag = 0.05 if set(states) & LAGGING else 0.0
     kept = tuple(DrivingState(s, lag if s in LAGGING else 0.0, ()) for s in states)
-    match = Match(CurveCandidate(kept, Port(port, "pads", "odd", "1", ()), gate, None, 1.0), chosen, numbers, 1.0, 0.2)  # pyright: ignore[reportArgumentType]
+    where = Port(port, "pads", "odd", "1", ())
+    match = Match(CurveCandidate(kept, where, gate, curve_over(len(kept)), 1.0), chosen, numbers, 1.0, 0.2)
     constants = [LawConstant("strength", 0.2, 0.1, 0.3, "1")]
     constants += [LawConstant(n, v, NAN, NAN, "1") for n, v in numbers.items()]
     constants += [LawConstant("time_constant", lag, NAN, NAN, "s")] if lag else []
@@ -155,3 +169,10 @@ def test_what_is_not_known_of_a_constant_is_null_in_json() -> None:
     read = json.loads(json.dumps(told.as_json(), allow_nan=False))
     assert read["laws"][0]["constants"]["width"]["low"] is None
     assert read["held_out"] == {"before": 7.0, "after": None}
+
+
+def test_a_constant_that_ran_to_its_bound_is_no_constant() -> None:
+    law = law_of("adds to mu", ("speed",), ("bump",))
+    open_ended = [dataclasses.replace(c, bound="upper") if c.name == "width" else c for c in law.constants]
+    read = discovery(dataclasses.replace(law, constants=tuple(open_ended))).as_json()["laws"][0]
+    assert "width" not in read["constants"] and read["undetermined"] == {"width": "upper"}

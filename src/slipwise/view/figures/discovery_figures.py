@@ -13,7 +13,6 @@ from slipwise.discovery.form import Form
 from slipwise.discovery.law import Law
 from slipwise.discovery.law_objective import STRENGTH
 from slipwise.discovery.matching import product_at
-from slipwise.discovery.result import Discovery
 from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.discovery_samples import Cloud, candidate_cloud, law_cloud
 from slipwise.view.figures.style import MODEL_COLOURS
@@ -42,9 +41,9 @@ def law_figure(law: Law) -> Figure:
     return _figure(law_cloud(law), candidate, forms)
 
 
-def candidate_figure(found: Discovery, candidate: CurveCandidate) -> Figure:
-    """Draw the curve of the screen over its data, where no form is called a law."""
-    return _figure(candidate_cloud(found, candidate), candidate, [])
+def candidate_figure(candidate: CurveCandidate) -> Figure:
+    """Draw the curve of the joint system over its data, where no form is called a law."""
+    return _figure(candidate_cloud(candidate), candidate, [])
 
 
 def _figure(cloud: Cloud, candidate: CurveCandidate, forms: Sequence[_Drawn]) -> Figure:

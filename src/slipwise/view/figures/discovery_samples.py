@@ -12,12 +12,10 @@ from slipwise.discovery.law import Law
 from slipwise.discovery.law_objective import STRENGTH, FittedLaw
 from slipwise.discovery.matching import product_at
 from slipwise.discovery.result import Discovery
-from slipwise.discovery.screening import fit_straight_pieces, screened_field
 from slipwise.estimation.least_squares import Solution
 from slipwise.estimation.objective import Objective
 from slipwise.residual_map.curve import ResidualCurve, fit_curve
-from slipwise.residual_map.ports import opened, places_of
-from slipwise.residual_map.states import DrivingState, pad_instants
+from slipwise.residual_map.states import DrivingState
 
 #: Points of a cloud, and parts of the range of its state that share them evenly: what is rare is seen too.
 _POINTS, _PARTS = 4000, 50
@@ -72,8 +70,8 @@ def law_states(law: FittedLaw) -> list[DrivingState]:
 def law_cloud(law: Law) -> Cloud:
     """Return what is left with the law, and the law itself, over what it is multiplied by, at judged fitted samples.
 
-    The curve has the knots of the screen, and everything else is as the fit with the law has it: what other numbers
-    can do for a law leaves the screen's own curve open.
+    The curve has the knots of the candidate, and everything else is as the fit with the law has it: what other numbers
+    can do for a law leaves the candidate's own curve open.
     """
     objective, splines = law.fitted.objective.plain, law.fitted.law.match.candidate.curve.splines
     driving = law_states(law.fitted)
@@ -117,30 +115,10 @@ def _seen_noise(law: Law, place: int) -> Array:
     return _wide(noise) / np.where(carrier == 0.0, np.nan, carrier)
 
 
-def candidate_cloud(found: Discovery, candidate: CurveCandidate) -> Cloud:
-    """Return the same for the curve of a state that is no law: what the base fit leaves, but for what it has swallowed.
-
-    The curve is made once more where the search began, for a screen may have begun elsewhere.
-    """
-    objective, port = found.base.objective, candidate.port
-    field = screened_field(objective, found.base.solution, port.relation)
-    carrier = field.at_samples(port.carrier)
-    if candidate.gate.name != "all":
-        carrier = carrier * field.at_samples(_opened(found, candidate))
-    states = tuple(field.at_samples(s.values) for s in candidate.states)
-    curve = fit_straight_pieces(field, states, carrier, candidate.curve.splines.shape)
-    said = curve.splines.evaluate(curve.heights(), states)
-    swallowed = field.base @ (field.base.T @ (said * carrier / field.sigma))
-    noise = field.sigma / np.where(carrier == 0.0, np.nan, carrier)
-    kept = np.abs(noise) < _NOISY * np.nanmedian(np.abs(noise))
-    height = (field.residual + swallowed) * noise
-    return Cloud(tuple(s[kept] for s in states), height[kept], curve)
-
-
-def _opened(found: Discovery, candidate: CurveCandidate) -> list[Array]:
-    objective = found.base.objective
-    states = pad_instants(objective, found.base.solution.values).states
-    return opened(candidate.gate, places_of(objective), states)
+def candidate_cloud(candidate: CurveCandidate) -> Cloud:
+    """Return the same for a curve that is no law, of averaged samples, all else as the joint system has it."""
+    *states, height = candidate.points
+    return Cloud(tuple(states), height, candidate.curve)
 
 
 def left_over(objective: Objective, solution: Solution, relation: str, state: DrivingState) -> tuple[Array, Array]:

@@ -69,7 +69,7 @@ def _discovery(found: Any) -> Figure:
 
     if found.laws:
         return law_figure(found.laws[0])
-    return candidate_figure(found, found.organised) if found.organised else errors_figure(found)
+    return candidate_figure(found.organised) if found.organised else errors_figure(found)
 
 
 def _effect(effect: Any) -> Figure:

@@ -21,6 +21,7 @@ from slipwise.view.words.discovery_words import (
     meaning,
     number_rows,
     range_words,
+    shape_lines,
     state_words,
     tied_words,
 )
@@ -35,7 +36,7 @@ _NO_MECHANISM = (
 def discovery_page(found: Discovery) -> str:
     """Make the page: the text of a self-contained HTML file."""
     with styled():
-        sections = [*_found(found), *_taken_away(found), _looked_at(found), _limits(found)]
+        sections = [*_described(found), *_found(found), *_taken_away(found), _looked_at(found), _limits(found)]
         return page(f"What the model of {found.campaign} lacks", [s for s in sections if s], _summary(found))
 
 
@@ -63,8 +64,14 @@ def _found(found: Discovery) -> list[Section]:
         f"{' and '.join(state_words(s.name) for s in found.organised.states)}. No form is put over the curve."
     )
     caption = "What the model lacks, one point a sample, and a curve of straight pieces through it with its 95 % band."
-    drawn = figure(candidate_figure(found, found.organised), caption)
-    return [Section("What comes nearest", [paragraph(words), drawn])]
+    drawn = figure(candidate_figure(found.organised), caption)
+    return [Section("What comes nearest", [paragraph(words), bullets(shape_lines(found)), drawn])]
+
+
+def _described(found: Discovery) -> list[Section]:
+    """Describe the curve without a form, where there is a law over it."""
+    lines = shape_lines(found) if found.laws else []
+    return [Section("The curve, without a form", [bullets(lines)])] if lines else []
 
 
 def _law(law: Law) -> list[Html]:
@@ -115,8 +122,9 @@ def _looked_at(found: Discovery) -> Section | None:
     if not found.looked_at:
         return None
     words = (
-        "Before any form was tried, a curve was put over every state, for every way in which a force may enter. "
-        "Each motion was predicted by the curve that the other motions ask for. The best:"
+        "Before any form was tried, a curve was put over every state, for every way in which a force may enter, beside "
+        "the base numbers and every effect of the catalogue. Each motion was predicted by the curve that the other "
+        "motions ask for. The likeliest:"
     )
     return Section("What else was looked at", [paragraph(words), table(looked_at_rows(found), marked=(0,))])
 

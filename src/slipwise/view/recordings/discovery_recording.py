@@ -56,7 +56,7 @@ def _boards(found: Discovery, place: int) -> list[Board]:
     with styled(night=True):
         boards = [_law_board(law, place) for law in found.laws]
         if not found.laws and found.organised is not None:
-            boards.append(Board("what comes nearest", candidate_figure(found, found.organised)))
+            boards.append(Board("what comes nearest", candidate_figure(found.organised)))
         boards.append(Board("errors", errors_figure(found)))
         if shown_states(found):
             boards.append(Board("what is left", states_figure(found)))

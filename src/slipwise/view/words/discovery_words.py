@@ -72,9 +72,19 @@ def number_rows(law: Law) -> list[dict[str, str]]:
     for c in law.constants:
         unit = unit_of_size(c.unit, c.value)
         value, low, high = (f"{convert(x, c.unit, unit):.5g}" if x == x else "" for x in (c.value, c.low, c.high))
+        value = "open" if c.bound else value
         interval = f"{low} to {high}" if low else "none: chosen, not fitted"
+        interval = f"the fit ran to the {c.bound} end of what was tried" if c.bound else interval
         rows.append({"number": c.name, "value": value, "95 % interval": interval, "unit": "" if unit == "1" else unit})
     return rows
+
+
+def shape_lines(found: Discovery) -> list[str]:
+    """Return what explains most, described without a form, and which effects of the catalogue could stand for it."""
+    shape = found.shape
+    out = [] if shape is None else [f"without a form, over {state_words(shape.state)}: {shape.words}"]
+    of = found.laws[0].alike if found.laws else found.organised.alike if found.organised else {}
+    return out + [f"{name} could explain {100.0 * share:.0f} % of this curve" for name, share in of.items()]
 
 
 def range_words(law: Law) -> str:
