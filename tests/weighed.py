@@ -6,10 +6,10 @@ import numpy as np
 
 from slipwise.arrays import Array
 from slipwise.effects import Effect, catalogue
+from slipwise.evidence.posterior import compute_posterior
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import CandidateColumn
-from slipwise.selection.posterior import compute_posterior
 from slipwise.selection.statistics import compute_statistics
 from slipwise.selection.units import Moved
 from slipwise.selection.weighed_model import DRAWS, BaseNumber, WeighedModel

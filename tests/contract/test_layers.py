@@ -37,11 +37,12 @@ ARROWS: dict[str, str] = {
         "arrays campaign channels effects errors jobs model noise params record regression rig signals simulation"
     ),
     "estimation": "arrays campaign effects errors jobs model noise regression relations rig",
-    "evidence": "arrays estimation noise relations rig",
+    "evidence": "arrays estimation jobs noise relations rig",
     "residual_map": "arrays campaign effects estimation regression relations simulation",
     "preparation": "arrays campaign channels effects errors estimation jobs model record relations rig signals units",
     "instruments": (
-        "arrays campaign channels display effects errors noise preparation record regression relations rig signals"
+        "arrays campaign channels display effects errors evidence noise preparation record regression relations rig"
+        " signals"
     ),
     "comparison": (
         "arrays campaign channels display effects errors estimation instruments jobs model motion noise preparation"
@@ -59,7 +60,7 @@ ARROWS: dict[str, str] = {
     ),
     "specimens": "arrays diagnosis display errors estimation evidence jobs relations selection",
     "discovery": (
-        "arrays campaign diagnosis display effects errors estimation jobs model noise params preparation relations"
+        "arrays campaign diagnosis display effects errors estimation evidence jobs model noise params preparation relations"
         " residual_map selection signals"
     ),
     "studies": (

@@ -6,6 +6,7 @@ import numpy as np
 
 from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.ablation import without
+from slipwise.evidence.prior import Prior
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import compute_lead, compute_relative_drop, compute_score
 from slipwise.instruments.delay_or_filter import is_delay, passed
@@ -14,7 +15,6 @@ from slipwise.selection.hypothesis import Hypothesis, is_at_limit, list_paramete
 from slipwise.selection.importance import Importance
 from slipwise.selection.inclusion import ABSENT, Inclusion
 from slipwise.selection.plainer import holds_as_limit
-from slipwise.selection.posterior import Prior
 from slipwise.selection.search_state import Search
 from slipwise.short_repr import short_repr
 

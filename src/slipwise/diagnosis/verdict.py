@@ -17,13 +17,13 @@ from slipwise.estimation.objective import Objective
 from slipwise.evidence.acceptance import LEAST
 from slipwise.evidence.calibration import load_calibration
 from slipwise.evidence.decision import EVEN_ODDS, decide, is_left
+from slipwise.evidence.prior import Prior
 from slipwise.evidence.score import compute_relative_drop
 from slipwise.instruments.suspects import effect_of
 from slipwise.preparation.sample_fault import SampleFault
 from slipwise.relations.parameters import Term
 from slipwise.selection.hypothesis import Hypothesis
 from slipwise.selection.inclusion import make_evidence
-from slipwise.selection.posterior import Prior
 from slipwise.selection.search_state import Search
 from slipwise.short_repr import short_repr
 

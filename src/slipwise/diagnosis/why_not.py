@@ -19,12 +19,12 @@ from slipwise.comparison.sentences import describe_places
 from slipwise.diagnosis.indistinguishable import list_known_effects
 from slipwise.errors import SlipwiseError, unknown_name
 from slipwise.estimation.objective import Objective
+from slipwise.evidence.prior import OF_MODEL
 from slipwise.evidence.residual_summary import get_error
 from slipwise.evidence.score import compute_lead, compute_score
 from slipwise.relations.parameters import Term
 from slipwise.relations.table import Block
 from slipwise.selection.candidates import at_odds
-from slipwise.selection.columns import OF_MODEL
 from slipwise.selection.hypothesis import Hypothesis, polish, refit
 from slipwise.selection.hypothesis_fit import make_fit
 from slipwise.selection.initial_grid import strengths

@@ -1,7 +1,7 @@
 """Which curve is missing beside what of the catalogue: the evidence of each, everything else free at the same time.
 
 Each curve is weighed beside the effects of the catalogue that are likeliest with it, best first on the same statistics
-with the same prior as `selection.posterior`; what is left of every relation is estimated for each anew.
+with the same prior as `evidence.posterior`; what is left of every relation is estimated for each anew.
 """
 
 from collections.abc import Mapping
@@ -21,9 +21,8 @@ from slipwise.discovery.curve_system import (
     level_of,
     solve_system,
 )
+from slipwise.evidence.prior import OF_MODEL, Prior
 from slipwise.residual_map.curve import ResidualCurve
-from slipwise.selection.columns import OF_MODEL
-from slipwise.selection.posterior import Prior
 from slipwise.short_repr import short_repr
 
 #: Moves of the search for what stands beside a curve, estimates of what is left before each at most, and change of

@@ -21,6 +21,7 @@ from slipwise.discovery.curve_posterior import (
 )
 from slipwise.discovery.curve_system import CurveProducts, CurveSystem, solve_system, take_curve_products
 from slipwise.estimation.objective import Objective
+from slipwise.evidence.prior import Prior
 from slipwise.relations.parameters import Free, Term
 from slipwise.residual_map.ports import (
     EVERYWHERE,
@@ -34,7 +35,6 @@ from slipwise.residual_map.ports import (
     places_of,
 )
 from slipwise.residual_map.states import DrivingState, PadInstants, pad_states, rig_states
-from slipwise.selection.posterior import Prior
 from slipwise.selection.proposals import LIKELY_LIMITS, values_of_form
 
 #: Curves that are weighed each with a search of its own for what stands beside it, of those that add most.

@@ -2,12 +2,12 @@
 
     r = y + J d + X u + Z c + e,    u ~ N(0, v),    c ~ N(0, t^2 C)
 
-as in `selection.posterior`, with the same averaged rows, columns, tolerances, dirt and coarsening. A candidate that
+as in `evidence.posterior`, with the same averaged rows, columns, tolerances, dirt and coarsening. A candidate that
 matters has the variance of its width added to that of dirt, which is the same as a further column. The heights c of a
 curve go smoothly from knot to knot. All is integrated out in one Cholesky factor: what is left is the evidence of a
 curve beside what stands there with it.
 
-Source: as of `selection.posterior`; curves as Gaussian processes: Rasmussen, Williams (2006), sections 2.7 and 5.4.
+Source: as of `evidence.posterior`; curves as Gaussian processes: Rasmussen, Williams (2006), sections 2.7 and 5.4.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
 from slipwise.arrays import Array
+from slipwise.evidence.prior import ColumnGroups, Prior, compute_log_odds, group_columns, list_trifles
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import CandidateColumn
-from slipwise.selection.posterior import ColumnGroups, Prior, compute_log_odds, group_columns, list_trifles
 from slipwise.short_repr import short_repr
 
 #: Rows whose products are taken at once: memory.

@@ -37,12 +37,12 @@ from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval
 from slipwise.estimation.least_squares import Solution, get_slopes, solve, with_slopes
 from slipwise.estimation.objective import Objective
+from slipwise.evidence.prior import Prior
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.model import Model
 from slipwise.noise.level import is_at_floor
 from slipwise.preparation.prepared import Prepared
 from slipwise.residual_map.states import MEASURED, VARIED_BY, WORDS, pad_instants, pad_states, rig_states
-from slipwise.selection.posterior import Prior
 
 #: Shares of the error above noise at which a law, a state, an organising state may be said [1].
 LAW, STATE, ORGANISED = 0.95, 0.9, 0.5

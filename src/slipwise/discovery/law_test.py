@@ -20,11 +20,11 @@ from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval, compute_two_sided_intervals
 from slipwise.estimation.least_squares import Solution, get_slopes, solve, with_slopes
 from slipwise.estimation.objective import Objective
+from slipwise.evidence.prior import Prior
 from slipwise.relations.parameters import Free, Term
 from slipwise.selection.candidates import at_odds
 from slipwise.selection.hypothesis import Hypothesis, prepare_refit
 from slipwise.selection.initial_grid import REFERENCES, strengths
-from slipwise.selection.posterior import Prior
 
 #: What a law must be worth to be there, and what a change of its numbers must be worth to be needed [nats].
 _THERE, _NEEDED = -float(np.log(Prior().chance)), 2.0

@@ -19,6 +19,7 @@ from slipwise.discovery.matching import Match, matched
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution, get_slopes, solve, with_slopes
 from slipwise.estimation.objective import Objective
+from slipwise.evidence.prior import Prior
 from slipwise.relations.parameters import Term
 from slipwise.residual_map.ports import girder_ports, load_ports, opened, pad_ports, places_of
 from slipwise.residual_map.states import pad_instants
@@ -26,7 +27,6 @@ from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.candidates import at_odds, list_exclusions
 from slipwise.selection.hypothesis import prepare_refit
 from slipwise.selection.linearisation import Linearisation, list_tolerances
-from slipwise.selection.posterior import Prior
 
 #: Candidates, forms of each, and matches that are fitted, and of these the ones that are fitted finely.
 _CANDIDATES, _FORMS, _FITTED, _FINELY = 5, 5, 8, 2

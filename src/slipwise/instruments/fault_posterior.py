@@ -11,13 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from slipwise.arrays import Array
+from slipwise.evidence.posterior import Effort, Posterior, compute_posterior
+from slipwise.evidence.statistics import compute_left_by_base
 from slipwise.instruments.balances_case import Case, Point, start
 from slipwise.instruments.disturbances import alternatives
 from slipwise.instruments.fault_columns import label_of
 from slipwise.instruments.linearised_balances import LinearBalances, linearise, linearise_base
 from slipwise.instruments.size_fit import SizeFit, compute_gain, fit_sizes
-from slipwise.selection.posterior import Effort, Posterior, compute_posterior
-from slipwise.selection.statistics import compute_left_by_base
 
 #: Likelier than this to be more than a trifle: it is taken out of the records; its column is taken again.
 _LIKELY, _TAKEN_AGAIN = 0.2, 0.05

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from slipwise.arrays import Array
+from slipwise.evidence.statistics import Statistics, scale_columns
 from slipwise.instruments.balances_case import Case, Point, mended
 from slipwise.instruments.disturbances import Alternative
 from slipwise.instruments.fault_columns import (
@@ -18,7 +19,6 @@ from slipwise.instruments.fault_columns import (
 )
 from slipwise.regression.normal_equations import build_equations, invert_regularised
 from slipwise.relations.balance_rows import Stack, adding, stack_rows
-from slipwise.selection.statistics import Statistics, scale_columns
 
 #: Part of a column's power below which what a fit of the constants leaves of it is rounding [1].
 _NOTHING = 1e-6

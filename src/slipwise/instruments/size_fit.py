@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from slipwise.arrays import Array
+from slipwise.evidence.prior import Prior
 from slipwise.instruments.balances_case import Point
 from slipwise.instruments.linearised_balances import LinearBalances
 from slipwise.regression.normal_equations import invert_regularised
-from slipwise.selection.posterior import Prior
 
 #: Relations weigh by what is left in them, which is estimated so often.
 _TIMES = 6

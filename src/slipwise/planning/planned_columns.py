@@ -8,6 +8,7 @@ import numpy as np
 from slipwise.campaign import Campaign
 from slipwise.estimation.base_fit import BaseFit, fit_base
 from slipwise.estimation.objective import make_objective
+from slipwise.evidence.statistics import Statistics
 from slipwise.model import Model
 from slipwise.relations.parameters import Term, make_terms
 from slipwise.relations.run_data import fit_runs
@@ -17,7 +18,7 @@ from slipwise.selection.columns import CandidateColumn, compute_raw_columns, lis
 from slipwise.selection.hypothesis import make_base_hypothesis
 from slipwise.selection.linearisation import Linearisation, linearise
 from slipwise.selection.proposals import bring_to_units, find_runs_of_most
-from slipwise.selection.statistics import Statistics, compute_statistics
+from slipwise.selection.statistics import compute_statistics
 from slipwise.selection.units import compute_units
 
 

@@ -27,8 +27,6 @@ FloatArray = NDArray[np.float32]
 FULL_SIZES: tuple[float, ...] = (-4.0, -1.0, 1.0, 4.0)
 #: A change of this size at most is round-off: what a candidate changes may still show beside another effect [noise].
 _ROUND_OFF = 1e-9
-#: Number of the form of an effect that is in the model: its constants are those of the fit.
-OF_MODEL = -2
 
 
 @short_repr

@@ -11,11 +11,12 @@ import numpy as np
 
 from slipwise.arrays import Array
 from slipwise.estimation.base_fit import BaseFit
+from slipwise.evidence.statistics import Statistics, compute_left_by_base
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import make_averaged_rows
 from slipwise.selection.columns import CandidateColumn, compute_raw_columns, list_forms
 from slipwise.selection.inclusion import SEEN
-from slipwise.selection.statistics import Statistics, compute_left_by_base, compute_statistics
+from slipwise.selection.statistics import compute_statistics
 from slipwise.selection.whole_fits import compute_columns_of_fits, fit_whole
 from slipwise.short_repr import short_repr
 

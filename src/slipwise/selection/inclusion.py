@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from slipwise.evidence.calibration import compute_log_odds
-from slipwise.selection.posterior import Posterior
+from slipwise.evidence.posterior import Posterior
 
 #: What matters and is seen: more than so many limits of materiality, and so many floors after a fit of the base [1].
 MATTERS, SEEN = 0.85, 0.65

@@ -9,16 +9,18 @@ from slipwise.arrays import Array, Mask
 from slipwise.campaign.materiality import Materiality
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution
+from slipwise.evidence.prior import OF_MODEL
+from slipwise.evidence.statistics import Statistics
 from slipwise.relations.measurement import is_shifting
 from slipwise.relations.parameters import Free, Term
 from slipwise.rig import Specimen
 from slipwise.selection.averaged_rows import AveragedRows
-from slipwise.selection.columns import OF_MODEL, CandidateColumn, make_column
+from slipwise.selection.columns import CandidateColumn, make_column
 from slipwise.selection.hypothesis import Hypothesis
 from slipwise.selection.hypothesis_fit import make_fit
 from slipwise.selection.initial_grid import strengths
 from slipwise.selection.sensitivities import evaluate_stacked
-from slipwise.selection.statistics import Statistics, compute_statistics
+from slipwise.selection.statistics import compute_statistics
 from slipwise.selection.units import compute_sizes_in_place
 from slipwise.selection.whole_fits import make_fit_without
 

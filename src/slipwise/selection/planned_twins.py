@@ -8,7 +8,7 @@ summed over, not sampled.
 
     y = -X (b + u) + e,   b one column's size,   u trifles of everything,   e white, of unit variance
 
-Source: `selection.posterior`; Atkinson, Donev, Tobias, Optimum Experimental Designs, with SAS, 2007, chapter 20.
+Source: `evidence.posterior`; Atkinson, Donev, Tobias, Optimum Experimental Designs, with SAS, 2007, chapter 20.
 """
 
 from collections.abc import Mapping, Sequence
@@ -21,11 +21,12 @@ from scipy.special import log_ndtr, ndtr
 from slipwise.arrays import Array
 from slipwise.evidence.calibration import Calibration
 from slipwise.evidence.decision import EVEN_ODDS, LISTED, compute_chance_to_matter
+from slipwise.evidence.posterior import make_normal_system
+from slipwise.evidence.prior import Prior, list_trifles
+from slipwise.evidence.statistics import Statistics, compute_left_by_base
 from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.inclusion import MATTERS, SEEN, Inclusion, make_evidence
-from slipwise.selection.posterior import Prior, list_trifles, make_normal_system
 from slipwise.selection.proposals import LIKELY, LIKELY_FLOORS, LIKELY_LIMITS
-from slipwise.selection.statistics import Statistics, compute_left_by_base
 
 #: Least eigenvalue of products of columns, of their largest: below it is round-off [1].
 _ROUND_OFF = 1e-12

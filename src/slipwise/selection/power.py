@@ -15,10 +15,10 @@ import numpy as np
 from slipwise.arrays import Array
 from slipwise.evidence.calibration import load_calibration
 from slipwise.evidence.decision import EVEN_ODDS, LISTED, compute_chance_to_matter
+from slipwise.evidence.posterior import Posterior
+from slipwise.evidence.prior import OF_MODEL
 from slipwise.jobs.parallel import on_every_core
-from slipwise.selection.columns import OF_MODEL
 from slipwise.selection.inclusion import compute_inclusions, make_evidence
-from slipwise.selection.posterior import Posterior
 from slipwise.selection.proposals import LIKELY, compute_chances_of_large
 from slipwise.selection.twins import compute_posterior_of_twin, make_twin
 from slipwise.selection.weighed_model import DRAWS, WeighedModel

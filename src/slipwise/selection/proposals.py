@@ -10,24 +10,18 @@ from slipwise.arrays import Array
 from slipwise.campaign.materiality import Materiality
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import solve, with_slopes
+from slipwise.evidence.posterior import QUICK, Posterior, compute_posterior
+from slipwise.evidence.prior import OF_MODEL
+from slipwise.evidence.statistics import scale_columns
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows, make_averaged_rows
 from slipwise.selection.candidates import at_odds, list_exclusions
-from slipwise.selection.columns import (
-    FULL_SIZES,
-    OF_MODEL,
-    CandidateColumn,
-    CandidateForm,
-    compute_raw_columns,
-    list_forms,
-)
+from slipwise.selection.columns import FULL_SIZES, CandidateColumn, CandidateForm, compute_raw_columns, list_forms
 from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, refit
 from slipwise.selection.hypothesis_fit import make_fit
 from slipwise.selection.initial_grid import REFERENCES, is_lag, is_placed, strengths
 from slipwise.selection.linearisation import Linearisation, linearise
-from slipwise.selection.posterior import QUICK, Posterior, compute_posterior
 from slipwise.selection.sensitivities import typical
-from slipwise.selection.statistics import scale_columns
 from slipwise.selection.units import Moved, compute_moved_by_sizes, compute_units, compute_units_of_fits
 from slipwise.selection.whole_fits import compute_columns_of_fits, fit_whole, is_told_by_whole_fit
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from slipwise.effects import Effect
 from slipwise.estimation.base_fit import BaseFit, restart_base_fit, reweigh_base_fit
+from slipwise.evidence.prior import Prior
 from slipwise.evidence.score import FLOOR, compute_score
 from slipwise.model import Model
 from slipwise.preparation.prepared import Prepared, fit_prepared
@@ -18,7 +19,6 @@ from slipwise.selection.inclusion import Inclusion, compute_inclusions
 from slipwise.selection.initial_grid import is_lag, variants
 from slipwise.selection.jacobian_memory import complete_jacobian
 from slipwise.selection.plainer import plainest
-from slipwise.selection.posterior import Prior
 from slipwise.selection.proposals import ProposedModel, compute_unexplained, list_likely, propose
 from slipwise.selection.search_state import Search, try_all, try_one
 from slipwise.selection.weighed_model import keep_weighed_model

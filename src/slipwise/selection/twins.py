@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from slipwise.arrays import Array
-from slipwise.selection.posterior import Effort, Posterior, compute_posterior
-from slipwise.selection.statistics import Statistics
+from slipwise.evidence.posterior import Effort, Posterior, compute_posterior
+from slipwise.evidence.statistics import Statistics
 from slipwise.selection.weighed_model import WeighedModel
 
 #: Of one twin among many.

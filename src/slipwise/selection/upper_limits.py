@@ -15,10 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.arrays import Array
+from slipwise.evidence.posterior import make_normal_system
+from slipwise.evidence.prior import Prior, list_trifles
 from slipwise.relations.parameters import Term
 from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.initial_grid import strengths
-from slipwise.selection.posterior import Prior, list_trifles, make_normal_system
 from slipwise.selection.weighed_model import WeighedModel
 from slipwise.short_repr import short_repr
 

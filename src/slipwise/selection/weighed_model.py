@@ -11,11 +11,11 @@ from functools import cached_property
 import numpy as np
 
 from slipwise.arrays import Array
+from slipwise.evidence.posterior import Posterior
+from slipwise.evidence.statistics import Statistics, compute_left_by_base
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.linearisation import Linearisation
-from slipwise.selection.posterior import Posterior
-from slipwise.selection.statistics import Statistics, compute_left_by_base
 from slipwise.selection.units import Moved
 from slipwise.short_repr import short_repr
 

@@ -11,7 +11,7 @@ all of them show alike adds up, and one that they do not show alike is a propert
 Prior: an effect that matters is as likely a property of the make as of one specimen. Trifles that are shared do not
 average out, so that a small error which every campaign repeats is no evidence for an effect beyond its own trifle.
 
-Sources: `selection.posterior`; Higgins, Thompson, Spiegelhalter (2009), JRSS A 172 (random effects over studies).
+Sources: `evidence.posterior`; Higgins, Thompson, Spiegelhalter (2009), JRSS A 172 (random effects over studies).
 """
 
 from collections.abc import Sequence
@@ -20,8 +20,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from slipwise.arrays import Array
+from slipwise.evidence.posterior import sample_large_sizes
+from slipwise.evidence.prior import list_trifles
 from slipwise.selection.columns import CandidateColumn
-from slipwise.selection.posterior import list_trifles, sample_large_sizes
 from slipwise.short_repr import short_repr
 from slipwise.specimens.shared_columns import SharedColumns
 from slipwise.specimens.specimen import SpecimenColumn, SpecimenStatistics, is_of_model

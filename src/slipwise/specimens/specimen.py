@@ -14,10 +14,11 @@ from slipwise.arrays import Array
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.errors import InputError
 from slipwise.estimation.intervals import COVERAGE, Interval, compute_intervals
+from slipwise.evidence.posterior import make_normal_system
+from slipwise.evidence.prior import OF_MODEL, list_trifles
 from slipwise.relations.parameters import Term
-from slipwise.selection.columns import OF_MODEL, CandidateColumn
+from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.initial_grid import strengths
-from slipwise.selection.posterior import list_trifles, make_normal_system
 from slipwise.selection.weighed_model import BaseNumber, WeighedModel
 from slipwise.short_repr import short_repr
 
@@ -36,7 +37,7 @@ class SpecimenColumn:
         effect: its name.
         gauge: whether it is a fault of gauges.
         faces: whether it is a law of the faces that slide, and no property of the rig.
-        form: number of the form; `columns.OF_MODEL` for an effect that the campaign's own model has.
+        form: number of the form; `OF_MODEL` for an effect that the campaign's own model has.
         shape: values of its constants.
         step: strength -> by how much it changes in one limit [unit]; "" for the share of a law in another's place.
         units: of these strengths.

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from slipwise.evidence.calibration import load_calibration
+from slipwise.evidence.statistics import Statistics
 from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.planned_twins import TwinWeighing, decide_twins, draw_pulls, prepare_weighing, weigh
-from slipwise.selection.statistics import Statistics
 
 ROWS = 4000
 

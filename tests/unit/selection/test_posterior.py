@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from slipwise.arrays import Array
+from slipwise.evidence.posterior import Posterior, compute_posterior
+from slipwise.evidence.statistics import scale_columns
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import CandidateColumn
-from slipwise.selection.posterior import Posterior, compute_posterior
-from slipwise.selection.statistics import compute_statistics, scale_columns
+from slipwise.selection.statistics import compute_statistics
 
 ROWS = 3000
 

@@ -1,4 +1,4 @@
-"""The sampler of a posterior over which candidate takes which place, compiled; see `selection.posterior`."""
+"""The sampler of a posterior over which candidate takes which place, compiled; see `evidence.posterior`."""
 
 from math import erf, log
 
