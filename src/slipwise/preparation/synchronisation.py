@@ -4,8 +4,9 @@ Load and friction cells on a second logger that was started late: found by frict
 
     sum F(t + tau) = a s(t) + b x(t) + c girder_ax(t) + sum c_i storey_i_ax(t) + d,      s = tanh(v / v_0)
 
-is fitted at every lag at which one of these resembles the sum of the pads' friction most; the best lag counts
-where all runs agree on it and without it much less is explained. Shorter delays are the fits' own business.
+is fitted at every lag at which one of these resembles the sum of the pads' friction most; the lag that explains most
+of all runs together counts where without it much less is explained and no run contradicts it. Shorter delays are the
+fits' own business.
 
 Accelerometers or slip gauges on a second logger that was started late: found by the motion that they share.
 
@@ -119,16 +120,16 @@ def find_late_cells(campaign: Campaign) -> LateChannels | None:
     """Return whether the pads' cells are late as one, of a girder that slides by itself; None where they are not."""
     if not campaign.specimen.free:
         return None
-    lags = [lag for run in campaign.runs if (lag := _lag(run, campaign.specimen)) is not None]
-    delay = find_agreed_lag(lags, campaign.runs[0].record.dt)
+    asked = [pair for run in campaign.runs if (pair := _friction_and_motion(run, campaign.specimen)) is not None]
+    delay = _find_common_lag(asked, campaign.runs[0].record.dt)
     if delay is None:
         return None
     names = dict.fromkeys(n for run in campaign.runs for n in run.record.channels if n.startswith("pad_"))
     return LateChannels(tuple(names), delay)
 
 
-def _lag(run: Run, specimen: Specimen) -> float | None:
-    """Return by how much the friction of a run comes late [s]; None where it says nothing."""
+def _friction_and_motion(run: Run, specimen: Specimen) -> tuple[Array, list[Array]] | None:
+    """Return the sum of the pads' friction (n,) and what explains it in step; None where a run says nothing."""
     record, dt = run.record, run.record.dt
     names, floors = [f"pad_{p}_Fx" for p in specimen.pads], storey_channels(specimen.storeys)
     if not record.has_all(*names, *floors, "slip_x", "girder_ax"):
@@ -138,18 +139,7 @@ def _lag(run: Run, specimen: Specimen) -> float | None:
     states = [np.tanh(np.gradient(slip, dt) / _TURNED), slip, record["girder_ax"], *(record[n] for n in floors)]
     if not all(np.isfinite(x).all() and np.ptp(x) > 0.0 for x in (force, *states)):
         return None
-    most = min(round(MOST / dt), len(force) // 2)
-    near = range(-_BESIDE, _BESIDE + 1)
-    tried = {0, *(find_strongest_lag(force, x, most) + beside for x in states for beside in near)}
-    shares = {lag: compute_explained_share(force, states, lag) for lag in sorted(tried)}
-    best = max(shares, key=lambda lag: shares[lag])
-    if shares[best] < EXPLAINED:
-        return None
-    if shares[best] < shares[0] + MORE:
-        return 0.0
-    return dt * (
-        best + locate_vertex(*(compute_explained_share(force, states, best + beside) for beside in (-1, 0, 1)))
-    )
+    return force, states
 
 
 def find_late_single_cells(campaign: Campaign) -> list[LateChannels]:
@@ -159,31 +149,44 @@ def find_late_single_cells(campaign: Campaign) -> list[LateChannels]:
         names = [f"pad_{pad}_{kind}" for pad in campaign.specimen.pads]
         records = [run.record for run in campaign.runs if run.record.has_all(*names)]
         moving = [r for r in records if all(np.isfinite(r[n]).all() and np.ptp(r[n]) > 0.0 for n in names)]
-        late = [one for name in names if moving and (one := _late_beside(moving, name, names))]
+        late: list[LateChannels] = []
+        for name in names:
+            asked = [(r[name], [r[other] for other in names if other != name]) for r in moving]
+            delay = _find_common_lag(asked, campaign.runs[0].record.dt)
+            late += [] if delay is None else [LateChannels((name,), delay)]
         found += late if len(late) == 1 else []  # of cells that contradict each other none is known to be late
     return found
 
 
-def _late_beside(records: Sequence[Record], name: str, names: Sequence[str]) -> LateChannels | None:
-    """Return a cell with its lag behind the others; None where it is in step, or resembles them at no lag."""
-    dt = records[0].dt
-    pairs = [(r[name], [r[other] for other in names if other != name]) for r in records]
-    sizes = [float(np.var(late)) * len(late) for late, _ in pairs]
+def _find_common_lag(asked: Sequence[tuple[Array, Sequence[Array]]], dt: float) -> float | None:
+    """Return the one lag at which states explain late channels in all runs together [s].
+
+    None where they are in step, resemble each other at no lag, or where a run contradicts it.
+
+    Args:
+        asked: of each run the channel (n,) that may be late, and the states (n,) that explain it in step.
+        dt: sampling step [s].
+    """
+    if not asked:
+        return None
+    sizes = [float(np.var(late)) * len(late) for late, _ in asked]
 
     def share(lag: int) -> float:
-        own = [size * compute_explained_share(*pair, lag) for size, pair in zip(sizes, pairs, strict=True)]
+        own = [size * compute_explained_share(*pair, lag) for size, pair in zip(sizes, asked, strict=True)]
         return sum(own) / sum(sizes)
 
     in_step = share(0)
     if in_step > 1.0 - MORE:
         return None
-    most = min(round(MOST / dt), *(len(late) // 2 for late, _ in pairs))
-    middles = {find_strongest_lag(late, state, most) for late, states in pairs for state in states}
+    most = min(round(MOST / dt), *(len(late) // 2 for late, _ in asked))
+    middles = {find_strongest_lag(late, state, most) for late, states in asked for state in states}
     shares = {lag: share(lag) for middle in middles for lag in range(middle - _BESIDE, middle + _BESIDE + 1)}
     best = max(shares, key=lambda lag: shares[lag])
     if abs(best) * dt < LEAST or shares[best] < max(EXPLAINED, in_step + MORE):
         return None
-    return LateChannels((name,), dt * (best + locate_vertex(*(share(best + beside) for beside in (-1, 0, 1)))))
+    if any(compute_explained_share(*pair, best) < compute_explained_share(*pair, 0) - _WORSE for pair in asked):
+        return None
+    return dt * (best + locate_vertex(*(share(best + beside) for beside in (-1, 0, 1))))
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ Source: assumed; it is in no catalogue on purpose.
 
 from math import tanh
 
-from slipwise.effects import RESPONSE, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -21,13 +21,15 @@ def shear(shear: float, slip_x: float, velocity_x: float, speed: float, rise: fl
 
 EFFECT = Effect(
     port="shear",
-    component="pad friction",
-    equation="mu *= 1 + c tanh(x/l) v_x/|v|",
     parameters=(
         Parameter("rise", "1", 0.09, 0.0, 0.9, 0.0, "assumed", "c: half the difference of out and back"),
         Parameter("reach", "m", 3.0e-3, 5.0e-4, 0.05, None, "assumed", "l: slip at which it is full", "mm"),
     ),
-    moves=RESPONSE,
-    signature="a force towards the middle that grows with friction",
-    confused_with={"slide_curvature": "a curved face pulls by its load, not by its friction"},
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="mu *= 1 + c tanh(x/l) v_x/|v|",
+        moves=RESPONSE,
+        signature="a force towards the middle that grows with friction",
+        confused_with={"slide_curvature": "a curved face pulls by its load, not by its friction"},
+    ),
 )

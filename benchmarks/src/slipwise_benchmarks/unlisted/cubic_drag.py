@@ -6,7 +6,7 @@ Valid: speeds below 1 m/s.
 Source: assumed; it is in no catalogue on purpose.
 """
 
-from slipwise.effects import RESPONSE, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -17,13 +17,15 @@ def shear(shear: float, speed: float, drag: float, fast: float) -> float:
 
 EFFECT = Effect(
     port="shear",
-    component="pad friction",
-    equation="mu *= 1 + c (|v|/V)^3",
     parameters=(
         Parameter("drag", "1", 0.2, 0.0, 2.0, 0.0, "assumed", "c: rise at the speed V"),
         Parameter("fast", "m/s", 0.3, 0.05, 2.0, None, "assumed", "V: speed of that rise"),
     ),
-    moves=RESPONSE,
-    signature="odd, at high speed only",
-    confused_with={"guide_drag": "a guide acts on the girder, not on its pads"},
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="mu *= 1 + c (|v|/V)^3",
+        moves=RESPONSE,
+        signature="odd, at high speed only",
+        confused_with={"guide_drag": "a guide acts on the girder, not on its pads"},
+    ),
 )

@@ -8,7 +8,7 @@ Source: assumed; it is in no catalogue on purpose.
 
 from math import pi, sin
 
-from slipwise.effects import RESPONSE, Effect
+from slipwise.effects import RESPONSE, Effect, ForDiagnosis
 from slipwise.params import Parameter
 
 
@@ -19,13 +19,15 @@ def shear(shear: float, slip_x: float, ripple: float, wave: float) -> float:
 
 EFFECT = Effect(
     port="shear",
-    component="pad friction",
-    equation="mu *= 1 + c sin(2 pi x/l)",
     parameters=(
         Parameter("ripple", "1", 0.12, 0.0, 0.9, 0.0, "assumed", "c: share by which friction rises"),
         Parameter("wave", "m", 5.0e-3, 1.0e-3, 0.1, None, "assumed", "l: distance of two ripples", "mm"),
     ),
-    moves=RESPONSE,
-    signature="odd, a wave over the place",
-    confused_with={"position_patch": "a patch is at one place"},
+    diagnosis=ForDiagnosis(
+        component="pad friction",
+        equation="mu *= 1 + c sin(2 pi x/l)",
+        moves=RESPONSE,
+        signature="odd, a wave over the place",
+        confused_with={"position_patch": "a patch is at one place"},
+    ),
 )
