@@ -60,8 +60,8 @@ ARROWS: dict[str, str] = {
     ),
     "specimens": "arrays diagnosis display errors estimation evidence jobs relations selection",
     "discovery": (
-        "arrays campaign diagnosis display effects errors estimation evidence jobs model noise params preparation relations"
-        " residual_map selection signals"
+        "arrays campaign diagnosis display effects errors estimation evidence jobs model noise params preparation"
+        " relations residual_map selection signals"
     ),
     "studies": (
         "arrays campaign channels diagnosis display effects errors estimation input_file jobs model motion record"
