@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-BUILDING = ROOT.parent / "shared" / "building"
 SOURCES = sorted((ROOT / "docs" / "notebooks").glob("*.py"))
 
 
@@ -34,10 +33,6 @@ def test_what_is_shipped_is_executed_and_of_its_source(maker, source):
 
 @pytest.mark.long
 @pytest.mark.parametrize("source", SOURCES, ids=lambda path: path.stem)
-def test_a_notebook_runs(maker, source, tmp_path, monkeypatch):
-    if "ISOLATED_BUILDING" in source.read_text():
-        if not BUILDING.exists():
-            pytest.skip(f"no records of the building in {BUILDING}")
-        monkeypatch.setenv("ISOLATED_BUILDING", str(BUILDING))
+def test_a_notebook_runs(maker, source, tmp_path):
     written = maker.write(maker.execute(source), source.stem, tmp_path)
     assert (tmp_path / f"{source.stem}.ipynb") in written

@@ -27,6 +27,8 @@ _UNLIKELY = 0.05
 _QUICK = Effort(chains=6, sweeps=20, draws=200, rounds=2)
 #: A lag that would explain so much is tried at these sizes [nats, least sizes].
 _WORTH_A_LOOK, _FULL_SIZES = 0.5, (-20.0, -12.5, -8.0, -5.0, 5.0, 8.0, 12.5, 20.0)
+#: Columns whose cosine is more than this are one column [1].
+_ALIKE = 0.999
 #: Linearisations at most, and the change of a size at which no further one is needed [1].
 _ROUNDS, _RESTED = 4, 0.05
 
@@ -73,15 +75,26 @@ def compute_fault_posterior(case: Case, first: SizeFit) -> FaultPosterior:
     if late:  # before anything is taken out: what stands first would keep its place
         linear = linearise(case, first.point, physics, linear, late)
     for _ in range(_ROUNDS):
-        quick = compute_posterior(linear.statistics, linear.columns, linear.tolerances, effort=_QUICK)
+        apart = _list_alike(linear)
+        quick = compute_posterior(linear.statistics, linear.columns, linear.tolerances, apart, _QUICK)
         point = fit_sizes(linear, choose_likely(linear, quick)).point
         if _is_near(linear.point, point):
             break
         in_place = {label_of(suspect): (size / suspect.least,) for suspect, size in linear.point.sizes}
         linear = linearise(case, point, physics, linear, _sizes(linear, quick) | in_place)
-    posterior = compute_posterior(linear.statistics, linear.columns, linear.tolerances)
+    posterior = compute_posterior(linear.statistics, linear.columns, linear.tolerances, _list_alike(linear))
     last = fit_sizes(linear, choose_likely(linear, posterior))
     return FaultPosterior(first, last, posterior, _shown(case, linear, posterior))
+
+
+def _list_alike(linear: LinearBalances) -> set[tuple[str, str]]:
+    """Return the pairs of candidates that do the same in these balances, in both orders: only one of them is there."""
+    inside = slice(linear.statistics.base, None)
+    products = np.tensordot(linear.statistics.rows.clip(1.0) ** -1.0, linear.statistics.products, 1)[inside, inside]
+    length = np.sqrt(np.maximum(np.diag(products), 1e-300))
+    alike = np.argwhere(np.abs(products) > _ALIKE * np.outer(length, length))
+    labels = [c.label for c in linear.columns]
+    return {(labels[i], labels[j]) for i, j in alike if labels[i] != labels[j]}
 
 
 def _list_late(linear: LinearBalances) -> dict[str, tuple[float, ...]]:

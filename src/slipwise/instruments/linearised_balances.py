@@ -83,8 +83,8 @@ def _linearised(at: BalancesAt, faults: Sequence[FaultColumn], physics: Sequence
     ]
     left = {n: r.copy() for n, r in here.residual.items()}
     for suspect, size in point.sizes:
-        own = next(c for c in faults if c.suspect is not None and c.suspect.key == suspect.key)
-        for n, column in own.block.items():
+        own = [c for c in faults if c.suspect is not None and c.suspect.key == suspect.key]
+        for n, column in own[0].block.items() if own else ():  # it may change nothing that is judged
             left[n] -= column[:, 0] * (size / suspect.least)
     columns = [*faults, *columns_of_physics(in_question(physics, here, left, floor), left)]
     tolerances = {}

@@ -72,6 +72,8 @@ def _weigh(linear: LinearBalances, products: Array, pulls: Array, left: Array) -
     prior, s = Prior(), linear.statistics
     weights = 1.0 / (np.maximum(left, prior.floor) * np.maximum(1.0, s.rows / prior.independent))
     whole, pull = np.tensordot(weights, products, 1), -weights @ pulls
+    beside = np.arange(s.base, len(pull))
+    whole[beside, beside] += prior.large[-1] ** -2.0  # what no sample shows is not as large as it likes
     for place, (off, deviation) in linear.tolerances.items():
         whole[place, place] += deviation**-2.0
         pull[place] += off * deviation**-2.0

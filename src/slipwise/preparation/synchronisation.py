@@ -167,6 +167,7 @@ def _find_common_lag(asked: Sequence[tuple[Array, Sequence[Array]]], dt: float) 
         asked: of each run the channel (n,) that may be late, and the states (n,) that explain it in step.
         dt: sampling step [s].
     """
+    asked = [(late, states) for late, states in asked if len(late) >= _ENOUGH]
     if not asked:
         return None
     sizes = [float(np.var(late)) * len(late) for late, _ in asked]

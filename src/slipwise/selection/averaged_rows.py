@@ -15,6 +15,7 @@ from scipy.sparse import csr_array
 
 from slipwise.arrays import Array
 from slipwise.estimation.objective import Objective
+from slipwise.short_repr import short_repr
 
 #: Rows a second at most [Hz]: above it a girder's relations tell of resonances of gauges and cards.
 BAND = 70.0
@@ -28,6 +29,7 @@ _PERIODS = 50
 _LEAST = 8
 
 
+@short_repr
 @dataclass(frozen=True)
 class _Series:
     """One pad's, or one balance's, samples in one run.
@@ -45,6 +47,7 @@ class _Series:
     hum: Array
 
 
+@short_repr
 @dataclass(frozen=True)
 class AveragedRows:
     """How stacked residuals of the fitted runs are averaged.

@@ -23,6 +23,7 @@ from slipwise.selection.sensitivities import evaluate_stacked
 from slipwise.selection.statistics import compute_statistics
 from slipwise.selection.units import compute_sizes_in_place
 from slipwise.selection.whole_fits import make_fit_without
+from slipwise.short_repr import short_repr
 
 #: Standard deviations of a rated mass, and of the constants of an effect in the model, as shares of the values [1].
 _MASS, _CONSTANTS = 0.03, 0.05
@@ -30,6 +31,7 @@ _MASS, _CONSTANTS = 0.03, 0.05
 _LEAST = 0.02
 
 
+@short_repr
 @dataclass(frozen=True)
 class Linearisation:
     """A model with what is likely in it, and what everything changes in it.

@@ -28,6 +28,7 @@ _OF_THE_FACES = ("shear", "area", "stick")
 _REACH = float(norm.ppf(0.5 + 0.5 * COVERAGE))
 
 
+@short_repr
 @dataclass(frozen=True)
 class SpecimenColumn:
     """One strength of a candidate at one form, as one campaign knows it.

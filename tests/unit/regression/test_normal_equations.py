@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from slipwise.regression.normal_equations import build_equations, get_left_over, invert_regularised, weigh_equations
-from slipwise.regression.projection import basis_of, make_projector
+from slipwise.regression.projection import make_projector
 
 RNG = np.random.default_rng(3)
 RESIDUAL = {"pads": RNG.normal(size=30), "girder": RNG.normal(size=20)}
@@ -55,7 +55,6 @@ def test_a_relation_without_columns_is_left_as_it_is() -> None:
 def test_what_columns_can_do_is_projected_away_and_nothing_else() -> None:
     columns = np.column_stack([BLOCKS[0]["pads"], BLOCKS[0]["pads"].sum(axis=1), np.zeros(30)])
     project = make_projector(columns)
-    assert basis_of(columns).shape == (30, 2)
     np.testing.assert_allclose(project(columns @ [1.0, -2.0, 0.5, 3.0]), 0.0, atol=1e-12)
     left = project(RESIDUAL["pads"])
     np.testing.assert_allclose(columns.T @ left, 0.0, atol=1e-12)
