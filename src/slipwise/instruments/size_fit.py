@@ -13,6 +13,8 @@ from slipwise.regression.normal_equations import invert_regularised
 
 #: Relations weigh by what is left in them, which is estimated so often.
 _TIMES = 6
+#: Standard deviations of the widest prior beyond which no size is taken out of records [1].
+_WIDEST = 3.0
 
 
 @dataclass(frozen=True)
@@ -52,7 +54,8 @@ def fit_sizes(linear: LinearBalances, chosen: Sequence[int]) -> SizeFit:
         solution = invert_regularised(whole) @ pull
         squares = s.squares + 2.0 * pulls @ solution + np.einsum("i,kij,j->k", solution, products, solution)
         left = np.maximum(squares, 0.0) / counts
-    sizes = dict(zip(chosen, solution[s.base :].tolist(), strict=True))
+    most = _WIDEST * Prior().large[-1]
+    sizes = dict(zip(chosen, solution[s.base :].clip(-most, most).tolist(), strict=True))
     return SizeFit(linear, solution[: s.base], sizes, np.sqrt(left))
 
 
