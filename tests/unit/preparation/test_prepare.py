@@ -95,7 +95,9 @@ def test_every_command_mends_a_fault_says_so_and_tells_the_same_error(sound, hea
         assert told == pytest.approx((error,) * 2, rel=1e-9), relation
         assert in_session[relation] == pytest.approx(error, rel=5e-3), relation
     if in_session != pytest.approx({**in_session, **errors}, rel=1e-9):
-        pytest.xfail("a session weighs its noise once more than the other commands: its errors differ by up to 0.3 %")
+        pytest.xfail(
+            "a session has errors that differ by up to 0.3 % from those of the other commands; cause not found"
+        )
 
 
 def test_a_campaign_that_is_prepared_is_not_prepared_again(sound):
