@@ -79,7 +79,7 @@ class EffectFinding:
     @property
     def is_trifle(self) -> bool:
         """Whether a refit of everything has left it no larger than what is always there and never named."""
-        return self.material < (Prior().trifle_of_gauges if self.is_gauge else Prior().trifle)
+        return self.material < Prior().get_trifle(gauge=self.is_gauge)
 
 
 def collect_findings(

@@ -19,9 +19,8 @@ from slipwise.discovery.curve_posterior import (
     variance_of,
     weigh,
 )
-from slipwise.discovery.curve_system import CurveProducts, CurveSystem, solve_system, take_curve_products
+from slipwise.discovery.curve_system import CurveProducts, CurveSystem, level_of, solve_system, take_curve_products
 from slipwise.estimation.objective import Objective
-from slipwise.evidence.prior import Prior
 from slipwise.relations.parameters import Free, Term
 from slipwise.residual_map.ports import (
     EVERYWHERE,
@@ -94,7 +93,7 @@ def weigh_curves(
         free: its free numbers.
         terms: label -> candidate of the catalogue, those of the model included.
     """
-    plain, bare = weigh(system, None, {}, _raw_level(system), moves=0), weigh_catalogue(system)
+    plain, bare = weigh(system, None, {}, level_of(system, system.summed[2]), moves=0), weigh_catalogue(system)
     pads, ports = pad_states(every), _ports(objective, values, every)
     made = [_make(system, objective, of, prior) for of, prior in _singles(pads, ports)]
     starts = (plain, bare)
@@ -125,7 +124,7 @@ def weigh_curves(
 
 def weigh_catalogue(system: CurveSystem) -> Weighed:
     """Return what of the catalogue is likeliest without any curve."""
-    level = _raw_level(system)
+    level = level_of(system, system.summed[2])
     tried = [weigh(system, None, start, level) for start in ({}, as_fitted(system))]
     return max(tried, key=lambda w: w.evidence)
 
@@ -133,17 +132,13 @@ def weigh_catalogue(system: CurveSystem) -> Weighed:
 def compute_dirt(system: CurveSystem) -> dict[str, float]:
     """Return relation -> share of its squared residual that small imperfections of everything do not explain [1]."""
     level = weigh_catalogue(system).level
-    raw = np.maximum(_raw_level(system), level)
+    raw = np.maximum(level_of(system, system.summed[2]), level)
     return {r: float(x) for r, x in zip(system.rows.relations, level / raw, strict=True)}
 
 
 def list_missing(system: CurveSystem, terms: Mapping[str, Term]) -> dict[str, Mapping[str, float]]:
     """Return label -> values of the effects of the catalogue that are likely in a system without any curve."""
     return _beside(system, weigh_catalogue(system), terms)
-
-
-def _raw_level(system: CurveSystem) -> Array:
-    return np.maximum(system.summed[2] / system.counts, Prior().floor)
 
 
 def _ports(objective: Objective, values: Mapping[str, float], every: PadInstants) -> list[Port]:
@@ -259,7 +254,7 @@ def _without_curve(system: CurveSystem, weighed: Weighed) -> Weighed:
 
 def _most(system: CurveSystem, made: Sequence[tuple[_Made, Weighed]]) -> list[tuple[_Made, Weighed]]:
     """Return those that add most to the evidence of what stands beside their single state."""
-    bare = {id(w): _without_curve(system, w) for _, w in made}
+    bare = {number: _without_curve(system, w) for number, w in {id(w): w for _, w in made}.items()}
     adds = [add_curve(system, bare[id(w)], one.products) + one.prior for one, w in made]
     return [made[i] for i in np.argsort(adds)[::-1][: _SEARCHED // 2]]
 

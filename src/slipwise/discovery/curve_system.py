@@ -19,13 +19,14 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
 from slipwise.arrays import Array
+from slipwise.evidence.posterior import make_normal_system
 from slipwise.evidence.prior import ColumnGroups, Prior, compute_log_odds, group_columns, list_trifles
+from slipwise.evidence.statistics import Statistics
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.columns import CandidateColumn
+from slipwise.selection.statistics import sum_products
 from slipwise.short_repr import short_repr
 
-#: Rows whose products are taken at once: memory.
-_AT_ONCE = 20_000
 #: Knots over which a curve's heights stay alike, that are tried.
 _SMOOTH = (1.0, 4.0, 16.0)
 #: Variances of its heights that are tried, over that of their mean error: from so much to so much, so many.
@@ -91,9 +92,16 @@ class CurveSystem:
         return self.products.sum(axis=1), self.pulls.sum(axis=1), self.squares.sum(axis=1)
 
     @cached_property
+    def statistics(self) -> Statistics:
+        """The same products as a posterior without curves asks for them."""
+        products, pulls, squares = self.summed
+        of_base = np.ones(self.base, bool)
+        return Statistics(products, pulls, squares, squares, self.counts, self.counts, self.base, of_base)
+
+    @cached_property
     def spread(self) -> Array:
         """By how many rows one independent sample stands (r,): the coarsening."""
-        return np.maximum(1.0, self.counts / Prior().independent)
+        return Prior().compute_coarsening(self.counts)
 
     def weights(self, level: Array) -> Array:
         """Return the weight of a squared row of each relation (r,) where so much is left of it [noise variance]."""
@@ -112,18 +120,9 @@ def make_curve_system(
 ) -> CurveSystem:
     """Take the products; arguments as the attributes, slopes (q, b)."""
     every = np.column_stack([slopes.astype(np.float32), *(c.column for c in columns)])
-    relations, blocks, width = len(rows.relations), int(block.max()) + 1, every.shape[1]
-    products, pulls = np.zeros((relations, blocks, width, width)), np.zeros((relations, blocks, width))
-    squares = np.zeros((relations, blocks))
-    for k in range(relations):
-        for t in range(blocks):
-            at = np.flatnonzero((rows.relation == k) & (block == t))
-            for start in range(0, len(at), _AT_ONCE):
-                part = at[start : start + _AT_ONCE]
-                some, y = every[part].astype(float), left[part]
-                products[k, t] += some.T @ some
-                pulls[k, t] += some.T @ y
-                squares[k, t] += float(y @ y)
+    relations, blocks = len(rows.relations), int(block.max()) + 1
+    sums = sum_products(every, left, rows.relation * blocks + block, relations * blocks)
+    products, pulls, squares = (each.reshape(relations, blocks, *each.shape[1:]) for each in sums)
     counts = np.maximum(np.bincount(rows.relation, minlength=relations).astype(float), 1.0)
     return CurveSystem(
         rows, left, every, tuple(keys), tuple(columns), tolerances, apart, block, products, pulls, squares, counts
@@ -210,16 +209,11 @@ def solve_system(
         curve: that stands beside them, if any.
         root: (m, m) root of the covariance of its heights.
     """
-    base, (products, pulls, squares) = system.base, system.summed
+    products, pulls, squares = system.summed
     weights = system.weights(level)
-    whole, pull = np.tensordot(weights, products, 1), -weights @ pulls
-    precision = np.concatenate([1e-6 * np.diag(whole)[:base] + 1e-9, 1.0 / variance])
-    known = 0.0
-    for place, (off, deviation) in system.tolerances.items():
-        precision[place] += deviation**-2.0
-        pull[place] += off * deviation**-2.0
-        known += (off / deviation) ** 2
-    whole = whole + np.diag(precision)
+    normal = make_normal_system(system.statistics, system.tolerances, level, np.sqrt(variance))
+    whole, pull = normal.regular, normal.pull
+    known = sum((off / deviation) ** 2 for off, deviation in system.tolerances.values())
     if curve is not None and root is not None:
         cross, own, drive = curve.summed
         weight = weights[curve.relation]

@@ -14,14 +14,13 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import norm
 from scipy.stats import t as student
 
 from slipwise.arrays import Array
 from slipwise.discovery.curve_search import weigh_catalogue
 from slipwise.discovery.curve_system import CurveSystem
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.intervals import COVERAGE, Interval, compute_two_sided_intervals
+from slipwise.estimation.intervals import COVERAGE, Interval, compute_halfwidth, compute_two_sided_intervals
 
 #: Parts of the record that are left out by turns, at least: motions, or parts of motions of equal length.
 _PARTS = 6
@@ -50,8 +49,7 @@ def _posterior_deviations(fit: BaseFit, system: CurveSystem) -> Mapping[str, flo
     """Return key -> half width of the interval of the joint posterior, with the catalogue as dirt."""
     scales = {f.key: f.scale for f in fit.solution.free}
     spread = np.sqrt(np.maximum(np.diag(weigh_catalogue(system).solved.covariance()), 0.0))
-    reach = float(norm.ppf(0.5 + COVERAGE / 2))
-    return {k: reach * float(spread[j]) * scales[k] for j, k in enumerate(system.keys) if k in scales}
+    return {k: compute_halfwidth(float(spread[j]) * scales[k]) for j, k in enumerate(system.keys) if k in scales}
 
 
 def _jackknife(fit: BaseFit) -> dict[str, float]:

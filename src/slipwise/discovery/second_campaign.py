@@ -19,9 +19,8 @@ from slipwise.discovery.law_objective import STRENGTH
 from slipwise.discovery.law_test import LawTest, hold_law_against
 from slipwise.discovery.result import Discovery
 from slipwise.effects import find_effect
+from slipwise.estimation.intervals import compute_halfwidth, compute_standard_error
 
-#: Half widths of a 95 % interval in standard errors.
-_REACH = 1.96
 #: A law of which a campaign says one of these takes part in its constants.
 _THERE = ("as it stands", "with another size", "with other constants")
 
@@ -54,7 +53,7 @@ def _held(law: Law, origin: Origin, found: Diagnosis) -> LawTest:
 def _weighed(own: LawConstant, tests: Sequence[LawTest]) -> LawConstant:
     """Return a constant of the form as all campaigns have it, by its errors; a strength stays that of the first."""
     every = [(own.value, own.low, own.high), *(t.constants[own.name] for t in tests if own.name in t.constants)]
-    told = [(x, 0.5 * (high - low) / _REACH) for x, low, high in every if high > low]
+    told = [(x, compute_standard_error(low, high)) for x, low, high in every if high > low]
     if own.name == STRENGTH or own.bound or len(told) < 2:
         return own
     values, errors = np.array(told).T
@@ -62,5 +61,5 @@ def _weighed(own: LawConstant, tests: Sequence[LawTest]) -> LawConstant:
     value = float(weights @ values / weights.sum())
     # campaigns that differ by more than their errors say that these are too small (Birge 1932, Phys. Rev. 40)
     excess = float(np.sqrt(weights @ (values - value) ** 2 / (len(told) - 1)))
-    half = _REACH * float(weights.sum() ** -0.5) * max(1.0, excess)
+    half = compute_halfwidth(float(weights.sum() ** -0.5) * max(1.0, excess))
     return replace(own, value=value, low=value - half, high=value + half)

@@ -79,8 +79,7 @@ def begin(
 
 
 EFFECT = Effect(
-    contract=1,
-    port="stick",
+    contract=1, port="stick",
     parameters=(
         Parameter("length", "m", 0.3e-3, 0.0, 5e-3, 0.0, "0.02 to 0.5 mm bare sheet, assumed", "u: bristle", "mm"),
         Parameter("exponent", "1", 1.0, 0.0, 1.0, None, "Dahl (1968): 1", "i: 1 Dahl, 0 elastic-plastic"),
@@ -91,15 +90,11 @@ EFFECT = Effect(
     ),
     memory=("last_x", "last_y", "last_time", *(f"bristle_{k}_{axis}" for k in range(BRISTLES) for axis in "xy")),
     diagnosis=ForDiagnosis(
-        component="pad friction",
-        equation="F = F_b z/u,  dz/ds = (1 - z/u)^i",
-        moves=RESPONSE,
+        component="pad friction", equation="F = F_b z/u,  dz/ds = (1 - z/u)^i", moves=RESPONSE,
         signature="after each reversal force lags by a constant distance; small cycles never develop full friction",
         confused_with={
             "channel_delay": "unlike accelerations at reversals: one distance is pre-sliding, one time a delay",
             "channel_filter": "the same; and the girder balance stays clean with pre-sliding",
-        },
-        limits=(Limit("length", "high", "slide_curvature"),),  # what never slides is a spring
-    ),
-    rare=Rare(base="stick"),
+        }, limits=(Limit("length", "high", "slide_curvature"),),  # what never slides is a spring
+    ), rare=Rare(base="stick"),
 )  # fmt: skip

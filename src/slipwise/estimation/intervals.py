@@ -23,6 +23,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import norm
 from scipy.stats import t as student
 
 from slipwise.arrays import Array
@@ -104,6 +105,16 @@ def count_figures(low: float, high: float) -> int:
     """Return the figures with which to write an interval: four, or so many that its half width keeps two."""
     half, size = 0.5 * (high - low), max(abs(low), abs(high))
     return max(4, int(np.ceil(np.log10(size / half))) + 2) if np.isfinite(half) and half > 0.0 else 4
+
+
+def compute_halfwidth(error: float) -> float:
+    """Return half the width of the interval of a number with this standard error, in its unit."""
+    return error * float(norm.ppf(0.5 + COVERAGE / 2))
+
+
+def compute_standard_error(low: float, high: float) -> float:
+    """Return the standard error for which an interval stands, in its unit."""
+    return 0.5 * (high - low) / compute_halfwidth(1.0)
 
 
 def compute_intervals(base: BaseFit) -> Intervals:

@@ -218,7 +218,7 @@ def make_normal_system(
         trifle: (K,) of `list_trifles`.
     """
     base = statistics.base
-    weights = 1.0 / (level * np.maximum(1.0, statistics.rows / Prior().independent))
+    weights = 1.0 / (level * Prior().compute_coarsening(statistics.rows))
     whole = np.tensordot(weights, statistics.products, 1)
     pull = -weights @ statistics.pulls
     ridge = np.concatenate([1e-6 * np.diag(whole)[:base] + 1e-9, trifle**-2.0])

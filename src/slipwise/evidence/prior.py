@@ -78,6 +78,14 @@ class Prior:
     floor: float = 0.3
     places: int = 12
 
+    def get_trifle(self, *, gauge: bool) -> float:
+        """Return the standard deviation of what is always there [limits]."""
+        return self.trifle_of_gauges if gauge else self.trifle
+
+    def compute_coarsening(self, rows: Array) -> Array:
+        """Return by how many rows one independent sample stands, of relations that have so many rows each (r,)."""
+        return np.maximum(1.0, rows / self.independent)
+
 
 @short_repr
 @dataclass(frozen=True)
@@ -144,6 +152,4 @@ def list_trifles(columns: Sequence[Competing]) -> Array:
     forms: dict[str, set[int]] = {}
     for c in columns:
         forms.setdefault(c.label, set()).add(c.form)
-    return np.array(
-        [(prior.trifle_of_gauges if c.gauge else prior.trifle) / len(forms[c.label]) ** 0.5 for c in columns]
-    )
+    return np.array([prior.get_trifle(gauge=c.gauge) / len(forms[c.label]) ** 0.5 for c in columns])

@@ -69,7 +69,7 @@ def _claim(found: FaultPosterior, term: int, there: Mask) -> Claim:
     posterior, columns = found.posterior, found.linear.columns
     form = plain_form(found.linear, posterior, term)
     label = posterior.labels[term]
-    column = next(i for i, c in enumerate(columns) if (c.label, c.form) == (label, form))
+    column = found.linear.list_places(label, form)[0]
     suspect = columns[column].suspect
     assert suspect is not None
     drawn = posterior.strengths[posterior.forms[:, term] == form, column] * suspect.least
@@ -101,6 +101,6 @@ def _rivals(found: FaultPosterior, term: int, there: Mask) -> tuple[str, ...]:
     for t in np.argsort(-instead):
         if t != term and instead[t] > _RIVALS:
             form = plain_form(found.linear, found.posterior, int(t))
-            c = next(c for c in found.linear.columns if (c.label, c.form) == (found.posterior.labels[t], form))
+            c = found.linear.columns[found.linear.list_places(found.posterior.labels[t], form)[0]]
             names.append(c.effect if c.suspect is None else f"{c.suspect.effect.name} {c.suspect.label}")
     return tuple(dict.fromkeys(names))

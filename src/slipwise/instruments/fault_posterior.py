@@ -158,7 +158,7 @@ def _shown(case: Case, linear: LinearBalances, posterior: Posterior) -> Array:
     for t, label in enumerate(posterior.labels):
         for form in np.unique(posterior.forms[:, t][posterior.forms[:, t] != -1]):
             at = np.flatnonzero(posterior.forms[:, t] == form)
-            own = np.array([i for i, c in enumerate(linear.columns) if (c.label, c.form) == (label, form)])
+            own = np.array(linear.list_places(label, int(form)))
             b = posterior.strengths[np.ix_(at, own)]
             squares = np.einsum("si,kij,sj->sk", b, rest[:, own][:, :, own], b)
             out[at, t] = np.sqrt(np.maximum(squares.max(axis=1, initial=0.0), 0.0))

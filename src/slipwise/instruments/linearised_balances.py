@@ -46,6 +46,10 @@ class LinearBalances:
     statistics: Statistics
     tolerances: dict[int, tuple[float, float]]
 
+    def list_places(self, label: str, form: int) -> list[int]:
+        """Return the places of the columns of a candidate at one form."""
+        return [i for i, c in enumerate(self.columns) if (c.label, c.form) == (label, form)]
+
 
 def linearise(
     case: Case, point: Point, physics: Sequence[Alternative],

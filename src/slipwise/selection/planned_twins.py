@@ -91,7 +91,7 @@ def prepare_weighing(
     whole, inside = system.whole, slice(base, None)
     solved = np.linalg.solve(system.regular, whole[:, inside]).T
     response = np.eye(len(whole))[inside] - solved
-    weights = 1.0 / np.maximum(1.0, statistics.rows / prior.independent)
+    weights = 1.0 / prior.compute_coarsening(statistics.rows)
     values, axes = np.linalg.eigh(np.tensordot(weights**2, statistics.products, 1))
     noise = axes * np.sqrt(np.where(values > _ROUND_OFF * values[-1], values, 0.0))
     shown = np.array([np.diag(left) for left in compute_left_by_base(statistics)]).max(axis=0)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from slipwise.arrays import Array
 from slipwise.evidence.statistics import Statistics
 from slipwise.selection.averaged_rows import AveragedRows
-from slipwise.selection.columns import CandidateColumn
+from slipwise.selection.columns import CandidateColumn, FloatArray
 
 #: Rows whose products are taken at once: memory.
 _AT_ONCE = 20_000
@@ -32,18 +32,31 @@ def compute_statistics(
         of_base: (b,) which of these belong to the base model.
         columns: of candidates, each (q,).
     """
-    of_fit = np.bincount(rows.relation, fitted**2, minlength=len(rows.relations)).astype(float)
+    count = len(rows.relations)
+    of_fit = np.bincount(rows.relation, fitted**2, minlength=count).astype(float)
     every = np.column_stack([slopes.astype(np.float32), *(c.column for c in columns)])
-    width, count = every.shape[1], len(rows.relations)
-    products, pulls = np.zeros((count, width, width)), np.zeros((count, width))
-    squares, counted = np.zeros(count), np.zeros(count)
+    counted = np.bincount(rows.relation, minlength=count).astype(float)
+    sums = sum_products(every, left, rows.relation, count)
+    return Statistics(*sums, of_fit, counted, rows.samples, slopes.shape[1], of_base)
+
+
+def sum_products(every: FloatArray, left: Array, group: NDArray[np.int64], count: int) -> tuple[Array, Array, Array]:
+    """Return products of columns (g, k, k), of columns with a residual (g, k), and its squares (g,), group by group.
+
+    Args:
+        every: (q, k) columns.
+        left: (q,) residual.
+        group: (q,) number of each row's group.
+        count: how many groups there are.
+    """
+    width = every.shape[1]
+    products, pulls, squares = np.zeros((count, width, width)), np.zeros((count, width)), np.zeros(count)
     for k in range(count):
-        at = np.flatnonzero(rows.relation == k)
-        counted[k] = len(at)
+        at = np.flatnonzero(group == k)
         for start in range(0, len(at), _AT_ONCE):
             part = at[start : start + _AT_ONCE]
             some, y = every[part].astype(float), left[part]
             products[k] += some.T @ some
             pulls[k] += some.T @ y
             squares[k] += float(y @ y)
-    return Statistics(products, pulls, squares, of_fit, counted, rows.samples, slopes.shape[1], of_base)
+    return products, pulls, squares

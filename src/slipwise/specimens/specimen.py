@@ -8,12 +8,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import norm
 
 from slipwise.arrays import Array
 from slipwise.diagnosis.result import Diagnosis
 from slipwise.errors import InputError
-from slipwise.estimation.intervals import COVERAGE, Interval, compute_intervals
+from slipwise.estimation.intervals import Interval, compute_intervals, compute_standard_error
 from slipwise.evidence.posterior import make_normal_system
 from slipwise.evidence.prior import OF_MODEL, list_trifles
 from slipwise.relations.parameters import Term
@@ -24,8 +23,6 @@ from slipwise.short_repr import short_repr
 
 #: Where an effect is a law of the faces that slide.
 _OF_THE_FACES = ("shear", "area", "stick")
-#: Halfwidths of an interval in a standard error.
-_REACH = float(norm.ppf(0.5 + 0.5 * COVERAGE))
 
 
 @short_repr
@@ -175,7 +172,7 @@ def condense(
 def _make_number(of: BaseNumber, entry: Interval | None) -> SpecimenNumber:
     if entry is None:
         return SpecimenNumber(of.key, float(of.value), float("nan"), "", float(of.scale))
-    error = float("nan") if entry.bound or entry.limit else 0.5 * (entry.high - entry.low) / _REACH
+    error = float("nan") if entry.bound or entry.limit else compute_standard_error(entry.low, entry.high)
     return SpecimenNumber(of.key, float(of.value), float(error), entry.unit, float(of.scale))
 
 

@@ -4,10 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from scipy.stats import norm
-
 from slipwise.diagnosis.result import Diagnosis, written
-from slipwise.estimation.intervals import COVERAGE, compute_intervals
+from slipwise.estimation.intervals import compute_intervals, compute_standard_error
 from slipwise.short_repr import short_repr
 
 #: Of diagnosis.json.
@@ -15,8 +13,6 @@ _KEPT = (
     "campaign", "verdict", "effects", "minor", "probability", "component", "base_error", "final_error", "confirmed",
     "system", "cannot_tell", "words", "seconds",
 )  # fmt: skip
-#: Halfwidths of a 95 % interval in a standard error.
-_REACH = float(norm.ppf(0.5 + COVERAGE / 2))
 
 
 @short_repr
@@ -85,4 +81,4 @@ def standard_error(entry: Mapping[str, Any]) -> float | None:
     """Return the standard error of a number [its unit]; None where it ended on a bound or is a limit only."""
     if entry.get("at_bound") or entry.get("limit") or entry["low"] is None or entry["high"] is None:
         return None
-    return 0.5 * (entry["high"] - entry["low"]) / _REACH or None
+    return compute_standard_error(entry["low"], entry["high"]) or None
