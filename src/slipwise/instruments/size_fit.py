@@ -1,13 +1,11 @@
 """Sizes of chosen faults and disturbances, with the constants of the rig, by weighed least squares."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from slipwise.arrays import Array
-from slipwise.evidence.posterior import NormalSystem, make_normal_system
 from slipwise.evidence.prior import Prior
 from slipwise.instruments.balances_case import Point
 from slipwise.instruments.linearised_balances import LinearBalances
@@ -52,8 +50,8 @@ def fit_sizes(linear: LinearBalances, chosen: Sequence[int]) -> SizeFit:
     counts = np.maximum(s.rows, 1.0)
     left, solution = s.squares / counts, np.zeros(len(places))
     for _ in range(_TIMES):
-        system = _weigh(linear, places, left)
-        solution = invert_regularised(system.regular) @ system.pull
+        whole, pull = _weigh(linear, products, pulls, left)
+        solution = invert_regularised(whole) @ pull
         squares = s.squares + 2.0 * pulls @ solution + np.einsum("i,kij,j->k", solution, products, solution)
         left = np.maximum(squares, 0.0) / counts
     most = _WIDEST * Prior().large[-1]
@@ -65,20 +63,24 @@ def compute_gain(alone: SizeFit, number: int) -> float:
     """Return about how much a column would explain beside the constants alone [nats]."""
     linear, s = alone.linear, alone.linear.statistics
     places = np.append(np.arange(s.base), s.base + number)
-    system = _weigh(linear, places, alone.left**2)
-    whole, pull = system.regular, system.pull
+    whole, pull = _weigh(linear, s.products[:, places][:, :, places], s.pulls[:, places], alone.left**2)
     free = invert_regularised(whole[:-1, :-1])
     own = whole[-1, -1] - whole[-1, :-1] @ free @ whole[:-1, -1]
     pulled = pull[-1] - whole[-1, :-1] @ free @ pull[:-1]
     return float(0.5 * pulled**2 / own) if own > 0.0 else 0.0
 
 
-def _weigh(linear: LinearBalances, places: NDArray[np.int64], left: Array) -> NormalSystem:
-    """Return the normal equations of some columns, every relation weighed by the mean square of what is left [floor^2].
+def _weigh(linear: LinearBalances, products: Array, pulls: Array, left: Array) -> tuple[Array, Array]:
+    """Return the normal equations, every relation weighed by the mean square of what is left in it [floor^2].
 
-    What no sample shows is not as large as it likes: sizes have the widest prior of what matters.
+    Unlike in `make_normal_system` nothing holds the constants: in SI units they differ by ten orders of magnitude.
     """
-    s = linear.statistics
-    chosen = replace(s, products=s.products[:, places][:, :, places], pulls=s.pulls[:, places])
-    room = np.full(len(places) - s.base, Prior().large[-1])
-    return make_normal_system(chosen, linear.tolerances, np.maximum(left, Prior().floor), room)
+    prior, s = Prior(), linear.statistics
+    weights = 1.0 / (np.maximum(left, prior.floor) * prior.compute_coarsening(s.rows))
+    whole, pull = np.tensordot(weights, products, 1), -weights @ pulls
+    beside = np.arange(s.base, len(pull))
+    whole[beside, beside] += prior.large[-1] ** -2.0  # what no sample shows is not as large as it likes
+    for place, (off, deviation) in linear.tolerances.items():
+        whole[place, place] += deviation**-2.0
+        pull[place] += off * deviation**-2.0
+    return whole, pull
