@@ -54,15 +54,17 @@ class LawCampaign:
         }
 
 
-def build_law_campaign(seed: int, *, name: str = "", law: str | None = None) -> LawCampaign:
+def build_law_campaign(seed: int, *, name: str = "", law: str | None = None, like: int | None = None) -> LawCampaign:
     """Make a campaign in memory.
 
     Args:
         seed: of everything random.
         name: for the answer.
         law: a name of `slipwise_benchmarks.laws.LAWS`, "" for none; None: what the seed stands for.
+        like: seed of another campaign whose law it has, with a size of its own; rig, motions, dirt and what is beside
+            it are this seed's.
     """
-    plan = draw_law_plan(seed, law)
+    plan = draw_law_plan(seed, law) if like is None else _alike(seed, draw_law_plan(like, law))
     made = _built(plan, seed, name)
     for _ in range(_TRIES):
         if not plan.law or LEAST <= made.floors <= LARGEST:
@@ -70,6 +72,14 @@ def build_law_campaign(seed: int, *, name: str = "", law: str | None = None) -> 
         plan = _resized(plan, (1.3 * LEAST if made.floors < LEAST else 0.7 * LARGEST) / made.floors)
         made = _built(plan, seed, name)
     return made
+
+
+def _alike(seed: int, other: LawPlan) -> LawPlan:
+    """Give the plan of a seed with the law of another plan: the same constants, the seed's own size."""
+    plan = draw_law_plan(seed, other.law)
+    same = next(p.seed for p in other.plan.plants if p.name == "law")
+    plants = [replace(p, seed=same) if p.name == "law" else p for p in plan.plan.plants]
+    return replace(plan, plan=replace(plan.plan, plants=tuple(plants)))
 
 
 def _built(plan: LawPlan, seed: int, name: str) -> LawCampaign:
@@ -82,15 +92,16 @@ def _resized(plan: LawPlan, factor: float) -> LawPlan:
     return replace(plan, plan=replace(plan.plan, plants=tuple(plants)))
 
 
-def make_law_campaign(folder: Path, seed: int, *, law: str | None = None) -> dict[str, Any]:
+def make_law_campaign(folder: Path, seed: int, *, law: str | None = None, like: int | None = None) -> dict[str, Any]:
     """Write campaign.toml, five CSV files and truth.json, and give the answer.
 
     Args:
         folder: of the campaign; its name becomes the campaign's.
         seed: as in `build_law_campaign`.
         law: as there.
+        like: as there.
     """
-    campaign = build_law_campaign(seed, name=folder.name, law=law)
+    campaign = build_law_campaign(seed, name=folder.name, law=law, like=like)
     truth, answer = campaign.made.truth, campaign.answer()
     rig, mass = (truth.said_rig, truth.said_mass) if campaign.plan.dirty else (truth.rig, None)
     write_campaign(folder, rig, truth.logger, campaign.made.recorded, truth.roles, mass)

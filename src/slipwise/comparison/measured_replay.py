@@ -17,6 +17,7 @@ from slipwise.model import Model
 from slipwise.motion.resample import resample
 from slipwise.motion.table_motion import TableMotion
 from slipwise.record import Record
+from slipwise.rig import Specimen, largest_step
 from slipwise.short_repr import short_repr
 from slipwise.signals.filters import lowpass
 from slipwise.simulation.kernel.layout import buffer_memories, pad_memories
@@ -64,10 +65,16 @@ def get_measured_motion(states: States) -> TableMotion:
     return TableMotion(states.dt, columns, "measured table motion", ("table_ax", "table_ay", "table_az"))
 
 
-def choose_simulation_step(sampling: float) -> float:
-    """Return the step of a simulation, the usual one at most, of which the step of a record is a multiple, both [s]."""
+def choose_simulation_step(sampling: float, specimen: Specimen) -> float:
+    """Return the step of a simulation [s]: the usual one or what stiff pads allow, a whole part of a record's step.
+
+    Args:
+        sampling: step of the record [s].
+        specimen: that is simulated, see `Model.built_specimen`.
+    """
+    most = min(DT, largest_step(specimen))
     # a step that was read from a file's times is off by rounding
-    return sampling / float(np.ceil(sampling / DT * (1.0 - 1e-9)))
+    return sampling / float(np.ceil(sampling / most * (1.0 - 1e-9)))
 
 
 def replay_runs(model: Model, runs: Sequence[tuple[str, States, float]], *, dt: float = DT) -> list[SystemRun]:
@@ -91,7 +98,7 @@ def replay_runs(model: Model, runs: Sequence[tuple[str, States, float]], *, dt: 
 
 def _replayed(law: Predictor, name: str, states: States, dt: float) -> SystemRun:
     step = states.dt
-    every = max(1, round(step / dt))
+    every = int(np.ceil(step / dt * (1.0 - 1e-9)))  # no coarser than pads allow
     fine = resample(get_measured_motion(states), step / every).acceleration
     length = min(round((WINDOW + SETTLE + _END) / step), len(states.time))
     stride = max(1, length - round((SETTLE + _END) / step))

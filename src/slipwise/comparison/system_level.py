@@ -19,7 +19,7 @@ from scipy.optimize import least_squares
 from slipwise.arrays import Array
 from slipwise.campaign import States
 from slipwise.channels import channels_like
-from slipwise.comparison.measured_replay import SystemRun, replay_runs
+from slipwise.comparison.measured_replay import SystemRun, choose_simulation_step, replay_runs
 from slipwise.effects import base_effects
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import BaseFit
@@ -188,11 +188,12 @@ def compare_system_level(
     tell = progress or (lambda _: None)
     model, notes = build_replayed_model(base)
     runs = base.objective.runs
-    main = replay_runs(model, [(r.name, r.states, r.rest_before) for r in runs])
+    dt = choose_simulation_step(DT, model.built_specimen())
+    main = replay_runs(model, [(r.name, r.states, r.rest_before) for r in runs], dt=dt)
     tell(0.3)
-    finer = replay_runs(model, [(r.name, r.states, r.rest_before) for r in runs], dt=0.5 * DT)
+    finer = replay_runs(model, [(r.name, r.states, r.rest_before) for r in runs], dt=0.5 * dt)
     tell(0.7)
-    noisier = replay_runs(model, [(r.name, _noisier(r, rng), r.rest_before) for r in runs])
+    noisier = replay_runs(model, [(r.name, _noisier(r, rng), r.rest_before) for r in runs], dt=dt)
     tell(1.0)
     errors = []
     for run, one, fine, noisy in zip(runs, main, finer, noisier, strict=True):
@@ -215,7 +216,7 @@ def compare_system_level(
             )  # fmt: skip
     if not errors:
         raise InputError("the runs are too short: no sample of a replay can be held against what was measured")
-    return SystemLevel(model, tuple(main), tuple(errors), DT, notes)
+    return SystemLevel(model, tuple(main), tuple(errors), dt, notes)
 
 
 def pool_system_errors(errors: tuple[SystemError, ...], channel: str, *, held_out: bool) -> float | None:

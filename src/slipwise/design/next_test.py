@@ -251,7 +251,7 @@ def _measured(found: Diagnosis, model: Model, text: str) -> Campaign:
     campaign = found.final.campaign
     pattern = found.search.base.objective.run(0)
     rng = np.random.default_rng(1)
-    dt = choose_simulation_step(pattern.dt)
+    dt = choose_simulation_step(pattern.dt, model.built_specimen())
     every = round(pattern.dt / dt)
     record = replay(model, parse_motion(text), dt=dt, output_dt=dt).record
     channels = {}

@@ -37,10 +37,12 @@ def replays(base: BaseFit, final: BaseFit, added: Sequence[str]) -> tuple[Record
     models = [("base model", base)]
     if added:
         models.append((f"with {' and '.join(added)}", final))
-    dt = choose_simulation_step(states.dt)
-    return states.record, [
-        (label, replay(_mechanics(fit), motion, dt=dt, output_dt=states.dt).record) for label, fit in models
-    ]
+
+    def shake(model: Model) -> Record:
+        dt = choose_simulation_step(states.dt, model.built_specimen())
+        return replay(model, motion, dt=dt, output_dt=states.dt).record
+
+    return states.record, [(label, shake(_mechanics(fit))) for label, fit in models]
 
 
 def replayed_errors(

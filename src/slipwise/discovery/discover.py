@@ -26,16 +26,19 @@ from slipwise.discovery.search import (
     Ground,
     add_missing,
     different,
+    exchange_beside,
     find_law,
+    fit_without_laws,
     make_ground,
     move_ground,
+    take_out,
     without_law,
 )
 from slipwise.discovery.second_campaign import add_campaigns
 from slipwise.effects import RIG_MOTION, Effect
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval
-from slipwise.estimation.least_squares import Solution, get_slopes, solve, with_slopes
+from slipwise.estimation.least_squares import Solution, solve, with_slopes
 from slipwise.estimation.objective import Objective
 from slipwise.evidence.prior import Prior
 from slipwise.jobs.parallel import one_thread_algebra
@@ -202,6 +205,9 @@ def _search(diagnosis: Diagnosis, tell: Callable[[str, float], None]) -> _Answer
             leaders, ground = _with_missing(leaders, ground)
             if _is_complete(objective, ground.solution):
                 break
+        if leaders and {t.label for t in ground.objective.plain.terms} != {t.label for t in objective.terms}:
+            objective, solution = fit_without_laws(ground)
+            base = replace(final, objective=objective, free=solution.free, solution=solution)
     now = leaders[-1][0].objective if leaders else LawObjective(pad_instants(objective, solution.values), objective, ())
     cannot = tuple(_cannot_judge(now))
     left = max(solution.residuals.level(r, objective.fitted) for r in objective.relations)
@@ -240,11 +246,9 @@ def _with_missing(leaders: list[_Leader], ground: Ground) -> tuple[list[_Leader]
     """Return the laws, and the ground with them, with what of the catalogue is missing beside them now."""
     last, tied, share = leaders[-1]
     ground = move_ground(ground, last.objective, last.solution)
-    more = add_missing(ground)
-    if more is None:
-        return leaders, ground
-    last = replace(last, objective=more.objective, solution=more.solution)
-    return [*leaders[:-1], (last, tied, share)], more
+    ground = exchange_beside(add_missing(ground) or ground)
+    last = replace(last, objective=ground.objective, solution=ground.solution)
+    return [*leaders[:-1], (last, tied, share)], ground
 
 
 def _held_against_the_others(name: str, found: _Answer) -> Discovery:
@@ -336,10 +340,7 @@ def _without_needless(leaders: list[_Leader], whole: float) -> list[_Leader]:
         label = needless[0].law.label
         laws = tuple(law for law in last.objective.laws if law.label != label)
         objective = replace(last.objective, laws=laws).without_results()
-        free = [f for f in last.solution.free if not f.key.startswith(f"{label}.")]
-        values = {k: v for k, v in last.solution.values.items() if not k.startswith(f"{label}.")}
-        slopes = get_slopes(last.solution)
-        known = {f.key: slopes[f.key] for f in free}
+        values, free, known = take_out(last.solution, [label])
         solution = solve(objective, values, free, begin=known)
         if solution.cost <= last.solution.cost + max(_TIE, _NEEDLESS * whole):
             solution = with_slopes(objective, solution)

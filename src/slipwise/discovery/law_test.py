@@ -79,7 +79,7 @@ class LawTest(Tabular):
             "cannot tell": "cannot be judged here: in these motions it changes too little to be seen; the driving "
             "state has to vary as far as its file says it is valid",
         }[self.holds]
-        return f"The law {self.law} in {self.campaign} {told}."
+        return f'The law "{self.law}" in {self.campaign} {told}.'
 
     def as_json(self) -> dict[str, Any]:
         """Return the answer for a program to read."""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from slipwise.discovery.candidate import CurveCandidate
 from slipwise.discovery.curve_search import Curves, list_missing, weigh_curves
-from slipwise.discovery.curve_system import CurveSystem, make_curve_system
+from slipwise.discovery.curve_system import CurveSystem, leave_out, make_curve_system
 from slipwise.discovery.form import forms
 from slipwise.discovery.law_objective import LEVER, FittedLaw, LawObjective, PlacedLaw, fit_law, fit_on
 from slipwise.discovery.matching import Match, matched
@@ -20,12 +20,12 @@ from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import Solution, get_slopes, solve, with_slopes
 from slipwise.estimation.objective import Objective
 from slipwise.evidence.prior import Prior
-from slipwise.relations.parameters import Term
+from slipwise.relations.parameters import Free, Term
 from slipwise.residual_map.ports import girder_ports, load_ports, opened, pad_ports, places_of
 from slipwise.residual_map.states import pad_instants
 from slipwise.selection.averaged_rows import AveragedRows
 from slipwise.selection.candidates import at_odds, list_exclusions
-from slipwise.selection.hypothesis import prepare_refit
+from slipwise.selection.hypothesis import ends_at_limit, prepare_refit
 from slipwise.selection.linearisation import Linearisation, list_tolerances
 
 #: Candidates, forms of each, and matches that are fitted, and of these the ones that are fitted finely.
@@ -42,6 +42,10 @@ _LEAST = 0.1
 _STRETCHES = 8
 #: A fit ends where a step lowers the squared residual by less than this, and than this share of what is left [1].
 _ENOUGH, _ROUGH = 10.0, 5e-4
+#: How often an effect beside a law may turn out to stand for another one.
+_REPLACED = 3
+#: Effects beside a law that are exchanged for what is likely without them.
+_EXCHANGED = 2
 
 
 @dataclass(frozen=True)
@@ -149,22 +153,96 @@ def find_law(ground: Ground, label: str) -> Found:
     return Found(curves, tuple(sorted([*fine, *tried[_FINELY:]], key=lambda f: f.solution.cost)))
 
 
+def exchange_beside(ground: Ground) -> Ground:
+    """Return the ground with those effects of the catalogue beside its laws with which everything leaves least.
+
+    What stands beside a law was chosen by straight lines from where there was none: those of which the data ask least
+    are taken out in turn, and what is likely then is fitted in the place of each.
+    """
+    for term in _least_asked(ground)[:_EXCHANGED]:
+        lean = _without_effect(ground, term)
+        other = add_missing(lean) or lean
+        if other.solution.cost < ground.solution.cost:
+            ground = other
+    return ground
+
+
+def _least_asked(ground: Ground) -> list[Term]:
+    """Return the effects beside the base, that first without which a fit along straight lines would lose least."""
+    own = {t.label for t in ground.base.objective.terms}
+    terms = [t for t in ground.objective.plain.terms if t.label not in own]
+    solution = ground.solution
+    normal = solution.normal + np.diag(1e-9 * np.diag(solution.normal) + 1e-300)
+    covariance = np.linalg.inv(normal)
+
+    def lost(term: Term) -> float:
+        absent = {f"{term.label}.{p.name}": p.neutral for p in term.effect.parameters if p.neutral is not None}
+        at = [j for j, f in enumerate(solution.free) if f.key in absent]
+        numbers = [solution.free[j] for j in at]
+        away = np.array([(solution.values[f.key] - absent[f.key]) / f.scale for f in numbers])
+        return float(away @ np.linalg.solve(covariance[np.ix_(at, at)], away))
+
+    return sorted(terms, key=lost)
+
+
+def fit_without_laws(ground: Ground) -> tuple[Objective, Solution]:
+    """Return the fit with the effects that stand beside the laws, but without these."""
+    plain = ground.objective.plain
+    values, free, known = take_out(ground.solution, [law.label for law in ground.objective.laws])
+    return plain, solve(plain, values, free, most=8, enough=_ENOUGH, rough=_ROUGH, begin=known)
+
+
+def take_out(
+    solution: Solution, labels: Sequence[str]
+) -> tuple[dict[str, float], list[Free], dict[str, NDArray[np.float64]]]:
+    """Return values, free numbers and their slopes without those of effects or laws of these labels."""
+    out = tuple(f"{label}." for label in labels)
+    slopes, free = get_slopes(solution), [f for f in solution.free if not f.key.startswith(out)]
+    values = {k: v for k, v in solution.values.items() if not k.startswith(out)}
+    return values, free, {f.key: slopes[f.key] for f in free if f.key in slopes}
+
+
+def _without_effect(ground: Ground, term: Term) -> Ground:
+    """Return the ground fitted without an effect, which does not compete there any more."""
+    here = ground.objective
+    plain = here.plain.having([t for t in here.plain.terms if t is not term])
+    objective = replace(here, plain=plain).without_results()
+    values, free, known = take_out(ground.solution, [term.label])
+    solution = solve(objective, values, free, most=8, enough=_ENOUGH, rough=_ROUGH, begin=known)
+    lean = move_ground(ground, objective, with_slopes(objective, solution))
+    return replace(lean, system=leave_out(lean.system, {term.label}))
+
+
 def without_law(ground: Ground, found: FittedLaw) -> tuple[Objective, Solution]:
     """Return the fit with the effects beside a law, but without any law."""
     return _beside(ground, found.law.match.candidate)
 
 
 def add_missing(ground: Ground) -> Ground | None:
-    """Return the ground with effects of the catalogue that are likely beside its laws; None where none is."""
-    missing = list_missing(ground.system, ground.terms)
-    labels = {t.label for t in ground.objective.plain.terms}
-    terms = [ground.terms[label] for label in missing if label not in labels]
-    if not terms:
-        return None
+    """Return the ground with effects of the catalogue that are likely beside its laws; None where none is.
+
+    One that ends where it is another effect, or nothing, stands for another one: what is likely without it is tried.
+    """
+    for _ in range(_REPLACED):
+        missing = list_missing(ground.system, ground.terms)
+        labels = {t.label for t in ground.objective.plain.terms}
+        terms = [ground.terms[label] for label in missing if label not in labels]
+        if not terms:
+            return None
+        more = _fit_with(ground, terms, missing)
+        nameless = {t.label for t in terms if ends_at_limit(t, more.solution)}
+        if not nameless:
+            return more
+        ground = replace(ground, system=leave_out(ground.system, nameless))
+    return None
+
+
+def _fit_with(ground: Ground, terms: Sequence[Term], starts: Mapping[str, Mapping[str, float]]) -> Ground:
+    """Return the ground with further effects, everything fitted from these values of theirs."""
     values, free = dict(ground.solution.values), list(ground.solution.free)
     for t in terms:
-        values |= {f"{t.label}.{n}": x for n, x in missing[t.label].items()}
-        free += [f for f in t.free(missing[t.label])]
+        values |= {f"{t.label}.{n}": x for n, x in starts[t.label].items()}
+        free += [f for f in t.free(starts[t.label])]
     plain = ground.objective.plain.adding(*terms)
     objective = replace(ground.objective, plain=plain).without_results()
     solution = solve(objective, values, free, most=8, enough=_ENOUGH, rough=_ROUGH, begin=get_slopes(ground.solution))

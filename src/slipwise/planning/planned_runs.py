@@ -78,7 +78,7 @@ def replay_planned(
     Raises:
         InputError: no motion could be replayed.
     """
-    dt, specimen = choose_simulation_step(sensors.step), model.specimen
+    dt, specimen = choose_simulation_step(sensors.step, model.built_specimen()), model.specimen
     names = list(motions)
 
     def shake(k: int) -> tuple[Record, float] | str:

@@ -214,22 +214,27 @@ def _inside(term: Term, start: Mapping[str, float]) -> dict[str, float]:
 
 def list_parameters_at_bound(found: Hypothesis) -> list[tuple[str, str]]:
     """Return label and name of every constant of its laws that has run against a bound other than its absence."""
-    return [(t.label, name) for t in found.terms for name in sorted(_ends(found, t))]
+    return [(t.label, name) for t in found.terms for name in sorted(_ends(t, found.solution))]
 
 
 def is_at_limit(found: Hypothesis) -> list[str]:
     """Return the labels of effects that ended where their files say that they are another effect, or nothing."""
-    return [t.label for t in found.terms if any(_reached(found, t, limit) for limit in t.effect.limits)]
+    return [t.label for t in found.terms if ends_at_limit(t, found.solution)]
 
 
-def _reached(found: Hypothesis, term: Term, limit: Limit) -> bool:
-    bounds, value = term.effect.parameter(limit.parameter), found.values_of(term)[limit.parameter]
+def ends_at_limit(term: Term, solution: Solution) -> bool:
+    """Return whether a fit has led an effect to where its file says that it is another effect, or nothing."""
+    return any(_reached(term, solution, limit) for limit in term.effect.limits)
+
+
+def _reached(term: Term, solution: Solution, limit: Limit) -> bool:
+    bounds, value = term.effect.parameter(limit.parameter), solution.values[f"{term.label}.{limit.parameter}"]
     end = "low" if value - bounds.low < bounds.high - value else "high"
-    return end == limit.end and limit.parameter in _ends(found, term)
+    return end == limit.end and limit.parameter in _ends(term, solution)
 
 
-def _ends(found: Hypothesis, term: Term) -> set[str]:
+def _ends(term: Term, solution: Solution) -> set[str]:
     """Return the parameters of a term that ended on a bound other than their absence; whole numbers are not fitted."""
-    ends, values = set(found.solution.at_bounds), found.values_of(term)
+    ends, begins = set(solution.at_bounds), f"{term.label}."
     fitted = [p for p in term.effect.parameters if not p.whole]
-    return {p.name for p in fitted if f"{term.label}.{p.name}" in ends and values[p.name] != p.neutral}
+    return {p.name for p in fitted if begins + p.name in ends and solution.values[begins + p.name] != p.neutral}

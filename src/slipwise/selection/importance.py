@@ -182,7 +182,8 @@ def _where_most(final: BaseFit, terms: Sequence[Term]) -> int:
 def _replayed(model: Model, final: BaseFit, place: int, *, rough: bool, partly: bool) -> Answer:
     """Replay a run's measured table motion, memory of pads and buffers from the runs before."""
     run = final.objective.run(place)
-    dt, motion = choose_simulation_step(run.dt), get_measured_motion(run.states)
+    specimen, motion = model.built_specimen(), get_measured_motion(run.states)
+    dt = choose_simulation_step(run.dt, specimen)
     start, rest = compute_memory_before(model, final.objective.runs_before(place)), run.rest_before
 
     def shake(step: float) -> tuple[Replay, SimulationDiverged | None]:
@@ -192,7 +193,7 @@ def _replayed(model: Model, final: BaseFit, place: int, *, rough: bool, partly: 
         except SimulationDiverged as error:
             return error.replay, error
 
-    doubled = rough and round(run.dt / dt) % 2 == 0 and 2.0 * dt <= largest_step(model.specimen)
+    doubled = rough and round(run.dt / dt) % 2 == 0 and 2.0 * dt <= largest_step(specimen)
     answer, stopped = shake(2.0 * dt if doubled else dt)
     if stopped and doubled:
         answer, stopped = shake(dt)

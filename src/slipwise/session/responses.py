@@ -92,7 +92,7 @@ def replay_run(ready: Evaluator, state: SessionState, name: str = "") -> RunRepl
     answer = replay(
         model,
         get_measured_motion(run.states),
-        dt=choose_simulation_step(run.dt),
+        dt=choose_simulation_step(run.dt, model.built_specimen()),
         output_dt=run.dt,
         start=compute_memory_before(model, fit.objective.runs_before(place)),
         rest=run.rest_before,

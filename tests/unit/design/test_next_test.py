@@ -15,7 +15,7 @@ from slipwise.diagnosis.result import Diagnosis
 from slipwise.diagnosis.verdict import Verdict
 from slipwise.errors import SettingError, SimulationError, SlipwiseError
 from slipwise.motion import displacement_peak, parse_motion, velocity_peak
-from slipwise.rig import load_specimen
+from slipwise.rig import largest_step, load_specimen
 from slipwise.selection.hypothesis import Hypothesis
 
 SMALL = Limits(stroke=0.02, speed=0.2, acceleration=2.0)
@@ -173,10 +173,19 @@ def test_effects_that_are_one_thing_to_the_verdict_but_not_to_the_runs_are_named
 
 @pytest.mark.parametrize("sampling", [0.002, 0.001, 1.0 / 256.0, 1e-4, 0.01, 0.0020000000000000018])
 def test_a_simulation_steps_no_coarser_than_usual_and_meets_every_sample(sampling: float) -> None:
-    step = choose_simulation_step(sampling)
+    step = choose_simulation_step(sampling, load_specimen("bridge2"))
     assert step <= 0.0005 * (1.0 + 1e-9)
     assert sampling / step == pytest.approx(round(sampling / step), abs=1e-9)
     assert sampling / (round(sampling / step) - 0.999) > 0.0005, "no finer than it must be"
+
+
+def test_a_simulation_steps_as_finely_as_stiff_pads_ask() -> None:
+    rig = load_specimen("bridge2")
+    stiff = replace(rig, places=tuple(replace(p, stiffness=30.0 * p.stiffness) for p in rig.places))
+    step = choose_simulation_step(0.002, stiff)
+    assert step < 0.0004
+    assert step <= largest_step(stiff)
+    assert 0.002 / step == pytest.approx(round(0.002 / step), abs=1e-9)
 
 
 def test_an_unreadable_motion_is_refused_before_any_work():

@@ -55,6 +55,8 @@ def told(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Discovery]:
         monkeypatch.setattr(module, "without_law", lambda *_: start)
         monkeypatch.setattr(module, "move_ground", moved)
         monkeypatch.setattr(module, "add_missing", lambda _: None)
+        monkeypatch.setattr(module, "exchange_beside", lambda ground: ground)
+        monkeypatch.setattr(module, "fit_without_laws", lambda _: start)
         monkeypatch.setattr(module, "compute_dirt", lambda _: {})
         monkeypatch.setattr(module, "with_slopes", lambda _, solution: solution)
         monkeypatch.setattr(module, "compute_law_intervals", lambda *_: {})

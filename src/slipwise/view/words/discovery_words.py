@@ -84,7 +84,8 @@ def shape_lines(found: Discovery) -> list[str]:
     shape = found.shape
     out = [] if shape is None else [f"without a form, over {state_words(shape.state)}: {shape.words}"]
     of = found.laws[0].alike if found.laws else found.organised.alike if found.organised else {}
-    return out + [f"{name} could explain {100.0 * share:.0f} % of this curve" for name, share in of.items()]
+    others = {name: share for name, share in of.items() if name not in found.beside}
+    return out + [f"{name} could explain {100.0 * share:.0f} % of this curve" for name, share in others.items()]
 
 
 def range_words(law: Law) -> str:
