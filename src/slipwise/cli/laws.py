@@ -27,23 +27,14 @@ def laws(
     if json:
         print_json(found.as_json())
         return
-    rows = [
-        {
-            "law": law.name,
-            "depends on": " and ".join(law.states),
-            "form": " or ".join((law.form, *law.tied)),
-            "held-out share": "" if law.share is None else f"{100.0 * law.share:.0f} %",
-            "valid": "; ".join(f"{state} {low:.3g} to {high:.3g}" for state, (low, high) in law.valid.items()),
-            "date": law.date,
-            "campaign": law.campaign,
-        }
-        for law in found.laws
-    ]
-    if not rows:
+    if not found.laws:
         say(f"no law was found in {folder}")
         say_next("`slipwise discover CAMPAIGN` looks for one")
         return
-    print_table(f"Laws in {folder}", rows)
+    shares = ("" if law.share is None else f"{100.0 * law.share:.0f} %" for law in found.laws)
+    rows = [{**law.as_row(), "held-out share": share} for law, share in zip(found.laws, shares, strict=True)]
+    # files are too long for a table
+    print_table(f"Laws in {folder}", [{k: v for k, v in row.items() if k not in ("file", "enters")} for row in rows])
     for law in found.laws:
         say(f"{law.name}: {law.file}")
     say_next(f"`slipwise diagnose CAMPAIGN --effect {quote(str(found.laws[0].file))}` says whether one holds elsewhere")

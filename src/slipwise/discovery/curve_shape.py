@@ -10,6 +10,7 @@ import numpy as np
 from scipy.optimize import isotonic_regression
 
 from slipwise.arrays import Array
+from slipwise.estimation.intervals import compute_halfwidth
 from slipwise.residual_map.curve import ResidualCurve
 from slipwise.residual_map.states import UNITS, DrivingState
 from slipwise.short_repr import short_repr
@@ -22,8 +23,8 @@ _FLAT, _PART = 0.15, 0.3
 _POINTS, _CROSSINGS = 61, 4
 #: Share of a curve about its middle that one period explains where it repeats [1].
 _PERIODIC = 0.6
-#: Half widths of a band in standard errors.
-_BAND = 1.96
+#: The mean of a curve is open where its heights are so many times less sure than their differences [1].
+_OPEN = 2.0
 
 
 @short_repr
@@ -39,6 +40,8 @@ class CurveShape:
         threshold: whether it begins flat and goes off from some place on.
         periodic: whether it repeats.
         ends: per end of the data: state, value, lower and upper end of its 95 % band [SI].
+        extremes: state and value where it is lowest, and where it is highest [SI].
+        about_mean: whether all values are counted from the curve's mean, since base numbers can make up for that.
     """
 
     state: str
@@ -48,6 +51,8 @@ class CurveShape:
     threshold: bool
     periodic: bool
     ends: tuple[tuple[float, float, float, float], tuple[float, float, float, float]]
+    extremes: tuple[tuple[float, float], tuple[float, float]]
+    about_mean: bool
 
     @property
     def words(self) -> str:
@@ -62,6 +67,11 @@ class CurveShape:
             ("it levels off", self.saturates), ("it begins at a threshold", self.threshold),
             ("it repeats", self.periodic),
         ) if there]  # fmt: skip
+        if self.direction == "neither":
+            low, high = (f"{y:.3g} at {x:.3g} {unit}".rstrip() for x, y in self.extremes)
+            more.insert(0, f"lowest {low}, highest {high}")
+        if self.about_mean:
+            more.append("counted from its mean, which numbers of the base model can make up for")
         return "; ".join([f"{first}, from {ends[0]} to {ends[1]}", *more])
 
     def as_json(self) -> dict[str, Any]:
@@ -75,6 +85,8 @@ class CurveShape:
             "threshold": self.threshold,
             "periodic": self.periodic,
             "ends": [dict(zip(names, end, strict=True)) for end in self.ends],
+            "extremes": [dict(zip(names, one, strict=False)) for one in self.extremes],
+            "about_mean": self.about_mean,
             "words": self.words,
         }
 
@@ -103,16 +115,22 @@ def describe_curve(curve: ResidualCurve, state: DrivingState) -> CurveShape | No
     shown = np.interp(grid, knots, heights)
     part = round(_PART * _POINTS)
 
+    about_mean = float(np.median(wide)) > _OPEN * float(np.median(errors))
+    told_heights, told_errors = (heights - np.mean(heights), errors) if about_mean else (heights, wide)
+
     def end(i: int) -> tuple[float, float, float, float]:
-        half = _BAND * float(wide[i])
-        return float(knots[i]), float(heights[i]), float(heights[i]) - half, float(heights[i]) + half
+        height, half = float(told_heights[i]), compute_halfwidth(float(told_errors[i]))
+        return float(knots[i]), height, height - half, height + half
+
+    def extreme(i: np.intp) -> tuple[float, float]:
+        return float(knots[i]), float(told_heights[i])
 
     monotone = direction in ("rises", "falls")
     begins_flat, ends_flat = (float(np.ptp(piece)) < _FLAT * span for piece in (shown[:part], shown[-part:]))
     return CurveShape(
         state.name, direction, _parity(knots, heights, errors, span) if state.signed else "",
         monotone and ends_flat and not begins_flat, monotone and begins_flat and not ends_flat, periodic,
-        (end(0), end(-1)),
+        (end(0), end(-1)), (extreme(np.argmin(heights)), extreme(np.argmax(heights))), about_mean,
     )  # fmt: skip
 
 

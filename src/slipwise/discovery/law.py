@@ -10,11 +10,12 @@ from slipwise.discovery.curve_shape import CurveShape, describe_curve
 from slipwise.discovery.form import FUNCTIONS, Form
 from slipwise.discovery.law_objective import STRENGTH, FittedLaw
 from slipwise.discovery.matching import name_of, product_at
+from slipwise.estimation.intervals import compute_halfwidth
 from slipwise.residual_map.states import WORDS
 from slipwise.short_repr import short_repr
 
-#: Points of a curve with its band, and half widths of the band in standard errors.
-_POINTS, _REACH = 41, 1.96
+#: Points of a curve with its band.
+_POINTS = 41
 
 
 @dataclass(frozen=True)
@@ -126,7 +127,7 @@ class Law:
         over = np.linspace(low, high, _POINTS)
         every = [(match.forms, self.fitted.values), *((t.forms, t.values) for t in self.tied_forms)]
         drawn = np.array([values[STRENGTH] * product_at(forms, [over], values) for forms, values in every])
-        half = _REACH * np.interp(over, curve.knots[0], curve.errors())
+        half = compute_halfwidth(1.0) * np.interp(over, curve.knots[0], curve.errors())
         return {
             "state": over.tolist(),
             "value": drawn[0].tolist(),

@@ -62,6 +62,21 @@ class ListedLaw:
             "contract": self.contract,
         }
 
+    def as_row(self) -> dict[str, Any]:
+        """Return the law as a row of a table."""
+        ranges = (f"{s} {low:.3g} to {high:.3g} {UNITS.get(s, '')}".rstrip() for s, (low, high) in self.valid.items())
+        return {
+            "law": self.name,
+            "campaign": self.campaign,
+            "depends on": " and ".join(WORDS.get(s, s) for s in self.states),
+            "enters": self.port,
+            "form": " or ".join((self.form, *self.tied)),
+            "held-out share": self.share,
+            "valid": "; ".join(ranges),
+            "date": self.date,
+            "file": str(self.file),
+        }
+
 
 @dataclass(frozen=True, repr=False)
 class LawList(Tabular):
@@ -84,16 +99,7 @@ class LawList(Tabular):
         return f"{count} law{'' if count == 1 else 's'} in {self.folder}"
 
     def _rows(self) -> list[dict[str, Any]]:
-        return [
-            {
-                "law": law.name, "campaign": law.campaign,
-                "depends on": " and ".join(WORDS.get(s, s) for s in law.states),
-                "enters": law.port, "form": " or ".join((law.form, *law.tied)), "held-out share": law.share,
-                "valid": "; ".join(f"{s} {a:.3g} to {b:.3g} {UNITS.get(s, '')}" for s, (a, b) in law.valid.items()),
-                "date": law.date, "file": str(law.file),
-            }
-            for law in self.laws
-        ]  # fmt: skip
+        return [law.as_row() for law in self.laws]
 
 
 def list_laws(folder: Path | str) -> LawList:

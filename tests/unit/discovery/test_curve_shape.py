@@ -1,5 +1,7 @@
 """A curve is described without a form: which way it goes, how it ends, and its values there."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -57,3 +59,19 @@ def test_over_two_states_there_is_no_such_description() -> None:
     splines = SplineBasis((np.linspace(0.0, 2.0, 4), np.linspace(-2.0, 2.0, 4)), 1)
     found = fit_curve(splines, (SIZES, BOTH_SIGNS), np.ones(len(SIZES)), SIZES * BOTH_SIGNS)
     assert describe_curve(found, DrivingState("speed", 0.0, ())) is None
+
+
+def test_a_curve_whose_mean_base_numbers_make_up_for_is_counted_from_it() -> None:
+    found = curve(SIZES, 0.3 * SIZES * (2.0 - SIZES))
+    normal, drive = found.normal[0], found.drive[0]
+    along, pull = normal.sum(axis=1), float(drive.sum())
+    taken = 0.9999 / float(along.sum())
+    made_up = replace(
+        found, normal=(normal - taken * np.outer(along, along))[None], drive=(drive - taken * along * pull)[None]
+    )
+    told = describe_curve(made_up, DrivingState("speed", 0.0, ()))
+    assert told is not None and told.about_mean and told.direction == "neither"
+    (_, lowest), (place, highest) = told.extremes
+    assert lowest < 0.0 < highest and place == pytest.approx(1.0, abs=0.3)
+    assert "counted from its mean" in told.words
+    assert all(low < value < high for _, value, low, high in told.ends)

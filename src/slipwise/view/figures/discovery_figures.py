@@ -13,13 +13,12 @@ from slipwise.discovery.form import Form
 from slipwise.discovery.law import Law
 from slipwise.discovery.law_objective import STRENGTH
 from slipwise.discovery.matching import product_at
+from slipwise.estimation.intervals import compute_halfwidth
 from slipwise.view.figures.canvas import new_figure
 from slipwise.view.figures.discovery_samples import Cloud, candidate_cloud, law_cloud
 from slipwise.view.figures.style import MODEL_COLOURS
 from slipwise.view.words.discovery_words import height_axis, state_axis
 
-#: Standard deviations of a 95 % band.
-_BAND = 1.96
 #: Points of a curve.
 _POINTS = 400
 #: Shares of the samples between which a picture reaches [1].
@@ -112,4 +111,4 @@ def _slices(
 def _curve(cloud: Cloud, states: Sequence[Array]) -> tuple[Array, Array]:
     """Return the curve of straight pieces at states (m,), and the half width of its band."""
     at = cloud.curve.splines.evaluate
-    return at(cloud.curve.heights(), states), _BAND * at(cloud.curve.errors(), states)
+    return at(cloud.curve.heights(), states), compute_halfwidth(1.0) * at(cloud.curve.errors(), states)
