@@ -25,8 +25,8 @@ from workbench_server import Server  # noqa: E402
 
 #: Dragged numbers, each between these shares of its value; the second belongs to an effect that is put in first.
 DRAGGED = (("rig.mass", "", 9.9e3, 10.1e3), ("run_in.rise", "run_in", 0.0, 0.3))
-#: So long nothing is said when nothing is at work: progress comes at least twice a second [s].
-QUIET = 3.0
+#: So long nothing is said when nothing is at work, on a machine that is busy otherwise too [s].
+QUIET = 8.0
 
 
 def head_of(told: str | bytes) -> dict[str, Any]:
