@@ -46,8 +46,6 @@ from slipwise_benchmarks.resumed import read_results, run_jobs
 from slipwise_benchmarks.score import calibration, confusion, rates
 from slipwise_benchmarks.sizes import sizes
 
-TESTS = Path(__file__).parents[1] / "tests"
-
 
 def one(folder: Path, name: str, seed: int, hidden: dict[str, Any]) -> dict[str, Any]:
     """Make one campaign, diagnose it blind, and give both answers; `hidden` are arguments of `make_campaign`."""

@@ -23,7 +23,6 @@ from slipwise.record import write_json
 from slipwise_benchmarks import GROUPS, Fault, build_campaign, with_faults
 from slipwise_benchmarks.in_memory import as_campaign
 
-TESTS = Path(__file__).parents[1] / "tests"
 PRACTICE = Path(__file__).parents[2] / "shared" / "practice"
 #: Planted size is found within this [1].
 NEAR = 0.15

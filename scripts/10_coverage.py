@@ -19,7 +19,6 @@ from slipwise.record import write_json
 from slipwise_benchmarks import build_campaign, with_faults
 from slipwise_benchmarks.in_memory import as_campaign
 
-TESTS = Path(__file__).parents[1] / "tests"
 #: Correlation of a sample's noise with that of the one before [1].
 CORRELATION = 0.5
 REPEATS_EACH = 5

@@ -25,7 +25,6 @@ from slipwise.record import write_json
 from slipwise_benchmarks import build_campaign
 from slipwise_benchmarks.in_memory import as_campaign as in_memory
 
-TESTS = Path(__file__).parents[1] / "tests"
 #: Seeds of the campaigns, and what is hidden in each; None: drawn.
 CAMPAIGNS: dict[int, tuple[str, ...] | None] = {
     201: (), 202: (), 205: None, 207: ("buffer_hardening",), 208: ("girder_bending",), 210: None,

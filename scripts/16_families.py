@@ -2,6 +2,7 @@
 
     python scripts/16_families.py --out out/families --count 12 --workers 2
     python scripts/16_families.py --out out/families --families gains temperature --makers replay --count 50
+    python scripts/16_families.py --out out/families --first 11 --count 3
     python scripts/16_families.py --quick
 
 `slipwise_benchmarks.families` says what the families are. Campaigns go to OUT/campaigns, answer keys to OUT/answers.
@@ -24,7 +25,6 @@ from typing import Any
 from slipwise_benchmarks.families import FAMILIES, MAKERS
 from slipwise_benchmarks.family_store import is_made, make, orders, read_answers
 
-TESTS = Path(__file__).parents[1] / "tests"
 MOST_WORKERS = 2
 #: Families whose campaigns are made within some seconds.
 QUICKEST = ("clean", "tribometers")
@@ -42,10 +42,6 @@ def make_and_read(order: Any) -> tuple[bool, str]:
         return False, f"{order.name}: {error}"
     said = ", ".join(answer["missing"]) or "nothing to name"
     return True, f"{answer['seconds']:6.1f} s  {runs} runs  {order.name:36s} {said}"
-
-
-def begin() -> None:
-    """Let a worker find the bench."""
 
 
 def table(answers: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
@@ -68,23 +64,22 @@ def table(answers: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
 
 def main() -> int:
     """Make what is missing, and write the table."""
-    begin()
-
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=Path, default=Path("out/families"))
     parser.add_argument("--families", nargs="*", choices=list(FAMILIES), default=list(FAMILIES))
     parser.add_argument("--makers", nargs="*", choices=MAKERS, default=list(MAKERS))
     parser.add_argument("--count", type=int, default=12, help="campaigns of each family and maker")
+    parser.add_argument("--first", type=int, default=0, help="place of the first seed: those before were used already")
     parser.add_argument("--workers", type=int, choices=range(1, MOST_WORKERS + 1), default=1, help="processes")
     parser.add_argument("--quick", action="store_true", help="one campaign of the quickest families by each maker")
     chosen = parser.parse_args()
 
     began = time.perf_counter()
     chosen_families = [FAMILIES[name] for name in (QUICKEST if chosen.quick else chosen.families)]
-    wanted = orders(chosen.out, chosen_families, chosen.makers, 1 if chosen.quick else chosen.count)
+    wanted = orders(chosen.out, chosen_families, chosen.makers, 1 if chosen.quick else chosen.count, chosen.first)
     left = [order for order in wanted if not is_made(order)]
     print(f"{len(wanted) - len(left)} of {len(wanted)} campaigns are there", flush=True)
-    with ProcessPoolExecutor(chosen.workers, get_context("spawn"), begin) as pool:
+    with ProcessPoolExecutor(chosen.workers, get_context("spawn")) as pool:
         jobs = [pool.submit(make_and_read, order) for order in left]
         failed: list[str] = []
         try:

@@ -26,7 +26,6 @@ from slipwise_benchmarks.families import FAMILIES
 from slipwise_benchmarks.family_store import make, orders
 from slipwise_benchmarks.rewritten import REWRITINGS
 
-TESTS = Path(__file__).parents[1] / "tests"
 #: What stands for the campaign as it is.
 ORIGINAL = "as it is"
 #: What `--quick` diagnoses: single sliders take seconds.

@@ -44,7 +44,6 @@ from thresholds import (
     write_table,
 )
 
-TESTS = Path(__file__).parents[1] / "tests"
 #: What `--quick` moves once, on one campaign of a single slider.
 QUICK = ("evidence.decision.EVEN_ODDS", "preparation.dead_cells._UNSEEN_WARP")
 #: Where a module compiles functions, what they read is not seen.

@@ -35,7 +35,6 @@ from slipwise.evidence.calibration import Calibration, Logistic, compute_log_odd
 from slipwise.evidence.decision import decide, is_left
 from slipwise_benchmarks.family_score import may_be_named, right
 
-TESTS = Path(__file__).parents[1] / "tests"
 OUT = Path(__file__).parents[1] / "src" / "slipwise" / "evidence" / "calibration.json"
 PRESENT = ("lead", "share", "stays", "gauge", "inclusion", "spread", "seen", "beside", "left")
 MATTERS = ("spread", "gauge", "lead", "beside", "left")

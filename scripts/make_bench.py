@@ -21,8 +21,6 @@ from pathlib import Path
 
 from slipwise_benchmarks import DRAWN, SIZES, Case, make_campaign, make_dirty, plan, write_truth
 
-TESTS = Path(__file__).parents[1] / "tests"
-
 
 @dataclass(frozen=True)
 class Order:

@@ -79,7 +79,7 @@ for axis, series, title in zip(axes, (linear, named), ("linear layer", "with wha
     left = np.std(series.residual[:, 0]) / np.std(series.measured[:, 0])
     axis.set(title=f"{title}: {100 * left:.0f} % left", xlabel="base over table [mm]")
 axes[0].set_ylabel("force of all bearings [kN]")
-axes[0].legend()
+_ = axes[0].legend()
 # %% [markdown]
 # The session has both fits as steps: errors in noise floors, of the fitted runs and of the one that no fit has seen.
 

@@ -52,12 +52,12 @@ class Order:
         return self.out / "answers" / f"{self.name}.json"
 
 
-def orders(out: Path, families: Iterable[Family], makers: Iterable[str], count: int) -> list[Order]:
-    """Give the campaigns of these families, the first `count` seeds of each; every family once, then again."""
+def orders(out: Path, families: Iterable[Family], makers: Iterable[str], count: int, first: int = 0) -> list[Order]:
+    """Give the campaigns of these families, `count` seeds of each from a place on; every family once, then again."""
     hashes = {(family.name, maker): family.depends_on(maker) for family in families for maker in makers}
     return [
         Order(out, name, maker, FAMILIES[name].seeds[place], depends_on)
-        for place in range(count)
+        for place in range(first, first + count)
         for (name, maker), depends_on in hashes.items()
     ]
 
