@@ -8,11 +8,12 @@ import argparse
 import json
 import sys
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from slipwise_benchmarks.families import FAMILIES, MAKERS
 from slipwise_benchmarks.family_store import Order, is_made, make, read_answers
-from slipwise_benchmarks.verdicts import UnusableVerdict, score_folder, table
+from slipwise_benchmarks.verdicts import UnusableVerdict, find_strays, score_folder, table
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -20,7 +21,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     chosen = _parser().parse_args(arguments)
     try:
         return _make(chosen) if chosen.command == "make" else _score(chosen)
-    except UnusableVerdict as error:
+    except (UnusableVerdict, ModuleNotFoundError, OSError) as error:
         print(error, file=sys.stderr)
         return 2
 
@@ -39,8 +40,8 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     making.add_argument("family", metavar="FAMILY", choices=list(FAMILIES))
-    making.add_argument("seed", metavar="SEED", type=_count, help="of the first; 0 or more")
-    making.add_argument("number", metavar="N", type=_count, help="campaigns, with seeds one after the other")
+    making.add_argument("seed", metavar="SEED", type=partial(_whole, least=0), help="of the first; 0 or more")
+    making.add_argument("number", metavar="N", type=partial(_whole, least=1), help="campaigns; seeds follow each other")
     making.add_argument("--out", metavar="FOLDER", type=Path, required=True)
     making.add_argument("--maker", choices=MAKERS, default="ode", help="replay needs the package slipwise")
     scoring = commands.add_parser("score", help="score one JSON file for each campaign")
@@ -51,11 +52,10 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _count(text: str) -> int:
-    number = int(text)
-    if number < 0:
-        raise argparse.ArgumentTypeError(f"{text} is below 0")
-    return number
+def _whole(text: str, least: int) -> int:
+    if not text.isdecimal() or int(text) < least:
+        raise argparse.ArgumentTypeError(f"it is {text!r}; write a whole number from {least} on")
+    return int(text)
 
 
 def _make(chosen: argparse.Namespace) -> int:
@@ -71,16 +71,21 @@ def _make(chosen: argparse.Namespace) -> int:
 
 
 def _score(chosen: argparse.Namespace) -> int:
-    answers = read_answers(chosen.folder)
+    if not chosen.folder.is_dir():
+        raise UnusableVerdict(f"there is no folder {chosen.folder}; `make` writes one")
+    answers, verdicts = read_answers(chosen.folder), chosen.verdicts or chosen.folder / "verdicts"
     if not answers:
         raise UnusableVerdict(f"{chosen.folder}/answers has no answer key; make campaigns with --out {chosen.folder}")
-    scored = score_folder(answers, chosen.verdicts or chosen.folder / "verdicts")
+    scored = score_folder(answers, verdicts)
+    for name in find_strays(answers, verdicts):
+        print(f"passed over {verdicts / name}: there is no campaign of that name", file=sys.stderr)
     if chosen.json:
         print(json.dumps({name: vars(one) for name, one in scored.items()}, indent=1))
         return 0
     for name, one in scored.items() if chosen.list else ():
         absent, missing = ", ".join(one.absent) or "-", ", ".join(one.missed) or "-"
-        print(f"{name:36s} {'right' if one.right else 'wrong'}  absent: {absent}  missed: {missing}")
+        listed = f"  listed, not there: {', '.join(one.listed_absent)}" if one.listed_absent else ""
+        print(f"{name:36s} {'right' if one.right else 'wrong'}  absent: {absent}  missed: {missing}{listed}")
     print("\n".join(table(list(scored.values()), len(answers))))
     return 0
 

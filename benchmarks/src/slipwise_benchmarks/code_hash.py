@@ -50,7 +50,7 @@ def _home(package: str) -> Path:
     """Give the folder of a package, which is not imported."""
     spec = find_spec(package)
     if spec is None or spec.origin is None:
-        raise ModuleNotFoundError(f"{package} is not installed; campaigns of the maker `replay` need it")
+        raise ModuleNotFoundError(f"{package} is not installed, and `--maker replay` needs it; take `--maker ode`")
     return Path(spec.origin).parent
 
 
