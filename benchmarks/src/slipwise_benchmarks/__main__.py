@@ -1,6 +1,6 @@
 """Make campaigns with hidden effects, and score what a tool says of them.
 
-python -m slipwise_benchmarks make clean 900000 10 --out out/blind
+python -m slipwise_benchmarks make clean 991000 10 --out out/blind
 python -m slipwise_benchmarks score out/blind --verdicts out/blind/verdicts
 """
 
