@@ -45,10 +45,16 @@ class Parameter:
         Raises:
             SettingError: no unit, no source, a text for a number, or bounds that do not hold the values.
         """
-        if not self.unit or not self.source or not self.meaning:
-            raise SettingError(
-                f"parameter {self.name!r} needs a unit, a source and a meaning ('1' for a pure number, 'assumed')"
-            )
+        for what, text, example in (
+            ("unit", self.unit, "'m' or '1' for a pure number"),
+            ("source", self.source, "'assumed'"),
+            ("meaning", self.meaning, "'s_c: distance'"),
+        ):
+            if not isinstance(text, str) or not text:  # pyright: ignore[reportUnnecessaryIsInstance] - of a user's file
+                raise SettingError(
+                    f"parameter {self.name!r}: its {what} is {text!r} and must be a text, such as {example}; the order "
+                    "is name, unit, typical, low, high, neutral, source, meaning"
+                )
         for kind in ("typical", "low", "high", "neutral"):
             value = getattr(self, kind)
             if not isinstance(value, int | float) and not (value is None and kind == "neutral"):
@@ -58,14 +64,14 @@ class Parameter:
                 )
         if not self.low < self.high:
             raise SettingError(
-                f"parameter {self.name!r}: bounds {self.low:g} to {self.high:g} {self.unit} are empty; the lower comes "
-                "first"
+                f"parameter {self.name!r}: bounds {self.low:g} to {self.high:g} [{self.unit}] are empty; the lower "
+                "comes first"
             )
         for kind, value in (("typical", self.typical), ("neutral", self.neutral)):
             if value is not None and not self.low <= value <= self.high:
                 raise SettingError(
                     f"parameter {self.name!r}: the {kind} value {value:g} is outside "
-                    f"{self.low:g} to {self.high:g} {self.unit}"
+                    f"{self.low:g} to {self.high:g} [{self.unit}]"
                 )
 
     def check(self, value: float, owner: str = "") -> float:

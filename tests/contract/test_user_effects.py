@@ -233,7 +233,13 @@ REFUSED = {
     "no EFFECT": (MINE.replace("EFFECT =", "OTHER ="), SettingError, "defines no EFFECT"),
     "no range": (MINE.replace("Valid:", "Range:"), SettingError, "Valid:"),
     "no source": (MINE.replace("Source: assumed", "From: assumed"), SettingError, "Source:"),
-    "no unit": (MINE.replace('"length", "m"', '"length", ""'), SettingError, "needs a unit"),
+    "no unit": (MINE.replace('"length", "m"', '"length", ""'), SettingError, "its unit is '' and must be a text"),
+    "millimetres": (
+        MINE.replace('"length", "m"', '"length", "mm"'),
+        SettingError,
+        "is in 'mm', and its numbers are SI",
+    ),
+    "contract as text": (MINE.replace("contract=1", 'contract="1"'), SettingError, "write contract=1, a number"),
     "empty bounds": (MINE.replace("1e-3, 0.1, None", "0.1, 1e-3, None"), SettingError, "bounds"),
     "typical outside": (MINE.replace("0.01, 1e-3, 0.1, None", "0.5, 1e-3, 0.1, None"), SettingError, "outside"),
     "unknown port": (MINE.replace('port="shear"', 'port="sheer"'), UnknownNameError, "did you mean shear"),
@@ -323,11 +329,24 @@ REFUSED = {
     "not imported": (
         MINE.replace("import pi, sin", "import pi"),
         SettingError,
-        "'sin' is not defined; mend line 17, or",
+        "'sin' is not defined; mend line 17, ask",
     ),
     "syntax": (MINE.replace("/ length))", "/ length)"), InputError, "was never closed in line 17: .* mend that line"),
     "does not import": (MINE.replace("from math import", "from maths import"), InputError, "cannot be imported"),
 }
+
+
+def test_a_file_whose_name_is_none_in_python_is_refused(tmp_path: Path) -> None:
+    file = tmp_path / "my-effect.py"
+    file.write_text(MINE)
+    with pytest.raises(SettingError, match="my-effect.py: the file's name is the effect's"):
+        load_effect(file)
+
+
+def test_a_pause_that_cannot_be_called_is_refused_when_the_file_is_read(tmp_path: Path) -> None:
+    text = beside('memory=("age",)').replace("EFFECT =", "def rest(memory, seconds):\n    memry[0] = 0.0\n\n\nEFFECT =")
+    with pytest.raises(SettingError, match=r"rest\(\) cannot be called.*memry"):
+        load_effect(written(tmp_path, text))
 
 
 @pytest.mark.parametrize("what", REFUSED)

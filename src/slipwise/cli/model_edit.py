@@ -51,6 +51,8 @@ def _change(change: "Callable[..., sw.ModelChange]", name: str, campaign: Path, 
         with steps() as tell:
             changed = change(name, session, progress=tell)
         tell_change(changed, held_out=bool(session.campaign.with_role("holdout")))
+        for words in changed.remarks:
+            say(words)
         say(f"wrote {session.accept()}")
         place = quote(str(campaign))
         say_next(f"`slipwise diagnose {place}`: is something else missing?", f"`slipwise workbench {place}` undoes it")

@@ -19,6 +19,7 @@ _NOTHING = "nothing: it changes memory[...]"
 _ANSWERS: dict[str, str] = {
     **dict.fromkeys(("stick", "pad", "drag"), _TWO),
     "advance": _NOTHING,
+    "rest": _NOTHING,
 }
 #: Hooks of whole arrays -> kind of their answer.
 _KINDS: dict[str, type] = {
@@ -50,13 +51,14 @@ def try_instant(path: Path, effect: Effect, hook: str, function: Callable[..., A
     if "memory" in given:
         given["memory"] = np.zeros(len(effect.memory))
     try:
-        answer = function(**given)
+        with np.errstate(all="ignore"):
+            answer = function(**given)
     except (ArithmeticError, ValueError):
         return  # this state may be none that the law is made for
     except Exception as error:
         raise SettingError(
-            f"{path.name}: {hook}() cannot be called: {type(error).__name__}: {error}; mend{line_of(error, path)}, or "
-            "import what it uses, as in `from math import exp`"
+            f"{path.name}: {hook}() cannot be called: {type(error).__name__}: {error}; mend{line_of(error, path)}, ask "
+            "for what it uses as an argument, or import it, as in `from math import exp`"
         ) from error
     wanted = _ANSWERS.get(hook, _ONE)
     numbers = answer if isinstance(answer, tuple) else () if answer is None else (answer,)

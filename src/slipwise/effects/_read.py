@@ -3,6 +3,8 @@
 import fnmatch
 import functools
 import inspect
+import keyword
+import re
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -24,6 +26,8 @@ from slipwise.params import Parameter
 _HELPER = "a function that helps a hook has a name that begins with _"
 #: Hooks of 0.1 -> what to write for them.
 _GONE = {"settle": "let `spring` change memory[...], as it may ask for all that settle() could"}
+#: Units of parameters, with their products and powers.
+_SI = frozenset({"m", "kg", "s", "N", "Pa", "J", "W", "K", "Hz", "rad", "V", "A", "C", "T"})
 #: Lines that a docstring must have -> an example.
 _LINES = {"Valid:": "Valid: speeds of 1 to 500 mm/s.", "Source:": "Source: assumed."}
 
@@ -39,6 +43,11 @@ def read_effect(module: ModuleType, path: Path) -> Effect:
         SettingError: the file breaks the contract; the message says where and how to mend it.
     """
     name = path.stem
+    if not name.isidentifier() or keyword.iskeyword(name) or not name.isascii():
+        raise SettingError(
+            f"{path.name}: the file's name is the effect's, which is a name in Python too: use letters, digits and _, "
+            "for example my_effect.py"
+        )
     found = getattr(module, "EFFECT", None)
     text = inspect.cleandoc(module.__doc__ or "")
     if not isinstance(found, Effect):
@@ -48,12 +57,15 @@ def read_effect(module: ModuleType, path: Path) -> Effect:
     for needed, example in _LINES.items():
         if needed not in text:
             raise SettingError(f"{path.name}: add a line to the docstring at the head of the file, such as {example!r}")
+    if not isinstance(found.contract, int):
+        raise SettingError(f"{path.name}: contract is {found.contract!r}; write contract={CONTRACT}, a number")
     if found.contract not in range(CONTRACT + 1):
         raise SettingError(
-            f"{path.name} is written for contract {found.contract!r} of effects, and this Slipwise knows 1 to "
+            f"{path.name} is written for contract {found.contract!r} of effects, and this Slipwise knows contract "
             f"{CONTRACT}; install a newer one with `pip install --upgrade slipwise`, or give contract={CONTRACT}"
         )
     _check_declared(path, found)
+    _check_units(path, found)
     if found.port not in PORTS:
         raise unknown_name(f"port (of {path.name})", found.port, PORTS)
     if found.component not in COMPONENTS:
@@ -121,6 +133,22 @@ def _check_declared(path: Path, effect: Effect) -> None:
         raise SettingError(f"{path.name}: it has a plainer form ({effect.plainer}), so it must name the `lag` of both")
 
 
+def _check_units(path: Path, effect: Effect) -> None:
+    """Refuse a parameter in millimetres: hooks are given SI, and a number in another unit would be taken for that.
+
+    Raises:
+        SettingError: with the parameter.
+    """
+    for p in effect.parameters:
+        words = {word for word in re.split(r"[^A-Za-z]+", p.unit) if word}
+        if words - _SI:
+            raise SettingError(
+                f"{path.name}: parameter {p.name!r} is in {p.unit!r}, and its numbers are SI: use "
+                f"{', '.join(sorted(_SI))}, their products and powers, or '1'; a unit that people read it in is the "
+                'ninth of Parameter(...), as shown_in="mm"'
+            )
+
+
 def _check_hooks(path: Path, effect: Effect, hooks: Mapping[str, Callable[..., Any]]) -> None:
     """Refuse functions that the port cannot have, arguments that nothing gives, and answers of another kind."""
     allowed = PORTS[effect.port]
@@ -133,7 +161,7 @@ def _check_hooks(path: Path, effect: Effect, hooks: Mapping[str, Callable[..., A
                 f"possible: {', '.join(allowed)}; {_GONE.get(hook, _HELPER)}"
             )
         _check_arguments(path, effect, hook, function)
-        if HOOKS[hook].instant:
+        if HOOKS[hook].instant or hook == "rest":
             try_instant(path, effect, hook, function)
 
 

@@ -18,6 +18,10 @@ from slipwise.session.fitting import Progress
 from slipwise.session.session import Session
 
 
+#: An error that is so many times larger has risen [1].
+_RISEN = 1.01
+
+
 @dataclass(frozen=True, repr=False)
 class ModelChange(Drawn, Tabular):
     """A model that was changed and fitted.
@@ -34,6 +38,23 @@ class ModelChange(Drawn, Tabular):
     model: Model
     before: Mapping[str, float | None]
     after: Mapping[str, float | None]
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What a reader should not miss: an error that has risen, and numbers that ran to an end of their bounds."""
+        out = []
+        worst = [max((x for x in each.values() if x is not None), default=0.0) for each in (self.before, self.after)]
+        if worst[1] > _RISEN * worst[0]:
+            out.append(f"the largest error has risen from {worst[0]:.3g} to {worst[1]:.3g} floors")
+        for use in self.model.uses:
+            for p in use.effect.parameters if not use.effect.base else ():
+                value, near = use.values[p.name], 1e-6 * (p.high - p.low)
+                if not p.whole and value not in (p.neutral, p.typical) and min(value - p.low, p.high - value) < near:
+                    end = "low" if value - p.low < near else "high"
+                    out.append(
+                        f"{use.effect.name}.{p.name} ran to the {end} end of its bounds: the data do not tell it"
+                    )
+        return tuple(out)
 
     def _headline(self) -> str:
         return f"{self.words}; errors in multiples of the noise floor"

@@ -10,6 +10,7 @@ from slipwise.cli.diagnose import _tell, diagnose
 from slipwise.cli.diagnosis_files import _record
 from slipwise.cli.model_edit import tell_change
 from slipwise.diagnosis.unknown_surface import leftover
+from slipwise.model import use
 from slipwise.record import Record
 from slipwise.selection.power import EffectPower
 from slipwise.selection.upper_limits import UpperLimit
@@ -77,6 +78,10 @@ def test_the_terminal_says_what_each_effect_changes_and_whether_it_is_confirmed(
 @pytest.mark.parametrize(("held_out", "title"), [(True, "Held-out error"), (False, "Error of the runs that were fit")])
 def test_an_edited_model_says_which_error_it_is_told_by(held_out: bool, title: str, capsys):
     changed = ModelChange("heating added", base().model, {"pads": 4.0}, {"pads": 1.0})
+    assert changed.remarks == ()
+    highest = base().model.adding(use("heating", share=0.3, cooling=3600.0))
+    risen, ended = replace(changed, model=highest, after={"pads": 5.0}).remarks
+    assert "risen from 4 to 5" in risen and "heating.cooling ran to the high end" in ended
     tell_change(changed, held_out=held_out)
     assert capsys.readouterr().out.startswith(title)
 
