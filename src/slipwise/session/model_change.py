@@ -17,7 +17,6 @@ from slipwise.session.findings import explained
 from slipwise.session.fitting import Progress
 from slipwise.session.session import Session
 
-
 #: An error that is so many times larger has risen [1].
 _RISEN = 1.01
 
