@@ -132,7 +132,7 @@ def make_curve_system(
 def leave_out(system: CurveSystem, labels: Collection[str]) -> CurveSystem:
     """Return the system without the candidates of these labels."""
     columns = [c for c in system.columns if c.label not in labels]
-    slopes = system.every[:, : system.base]
+    slopes = system.every[:, : system.base].astype(np.float64)
     return make_curve_system(
         system.rows, system.left, slopes, system.keys, columns, system.tolerances, system.apart, system.block
     )

@@ -205,7 +205,7 @@ def take_out(
 def _without_effect(ground: Ground, term: Term) -> Ground:
     """Return the ground fitted without an effect, which does not compete there any more."""
     here = ground.objective
-    plain = here.plain.having([t for t in here.plain.terms if t is not term])
+    plain = here.plain.having(tuple(t for t in here.plain.terms if t is not term))
     objective = replace(here, plain=plain).without_results()
     values, free, known = take_out(ground.solution, [term.label])
     solution = solve(objective, values, free, most=8, enough=_ENOUGH, rough=_ROUGH, begin=known)

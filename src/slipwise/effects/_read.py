@@ -57,7 +57,7 @@ def read_effect(module: ModuleType, path: Path) -> Effect:
     for needed, example in _LINES.items():
         if needed not in text:
             raise SettingError(f"{path.name}: add a line to the docstring at the head of the file, such as {example!r}")
-    if not isinstance(found.contract, int):
+    if not isinstance(found.contract, int):  # pyright: ignore[reportUnnecessaryIsInstance] - of a user's file
         raise SettingError(f"{path.name}: contract is {found.contract!r}; write contract={CONTRACT}, a number")
     if found.contract not in range(CONTRACT + 1):
         raise SettingError(
