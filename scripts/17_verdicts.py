@@ -23,7 +23,7 @@ from statistics import median
 from typing import Any
 
 from slipwise.diagnosis.diagnose import diagnose
-from slipwise.diagnosis.verdict import evidence_of, evidence_of_rest
+from slipwise.diagnosis.verdict import evidence_of, evidence_of_rest, list_shares_of_limit
 from slipwise.errors import SlipwiseError
 from slipwise_benchmarks.families import FAMILIES
 from slipwise_benchmarks.family_score import accused, missed, right
@@ -45,7 +45,7 @@ def verdict_of(folder: Path) -> dict[str, Any]:
         return {"verdict": "failed", "words": str(error), "seconds": time.perf_counter() - began}
     said, state = found.verdict, found.search
     surface = said.surface
-    rest = evidence_of_rest(state.path[0], state.final, surface, state.unexplained)
+    rest = evidence_of_rest(state.path[0], state.final, surface, state.unexplained, list_shares_of_limit(state))
     return {
         "verdict": said.kind,
         "effects": list(said.effects),

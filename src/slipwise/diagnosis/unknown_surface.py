@@ -111,9 +111,14 @@ def above_noise(found: Hypothesis, unexplained: Mapping[str, float]) -> dict[str
     for relation in (r for r in objective.relations if r not in ("motion", "across", "girder_y")):
         left = unexplained.get(relation, 1.0) * _usual_level(found, relation)
         over = max(left - max(_NOISE, pure_error(found, relation)), 0.0)
-        level = float(np.median(np.concatenate([np.ravel(of.sigma) for of in _fitted(found, relation)])))
-        out[relation] = float(np.sqrt(over) * level / max(_size(found, relation), 1e-30))
+        out[relation] = float(np.sqrt(over)) * compute_share_of_floor(found, relation)
     return out
+
+
+def compute_share_of_floor(found: Hypothesis, relation: str) -> float:
+    """Return the noise of a balance over the rms of what the balance is made of [1]."""
+    level = float(np.median(np.concatenate([np.ravel(of.sigma) for of in _fitted(found, relation)])))
+    return level / max(_size(found, relation), 1e-30)
 
 
 def _usual_level(found: Hypothesis, relation: str) -> float:

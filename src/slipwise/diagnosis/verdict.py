@@ -11,7 +11,7 @@ from slipwise.diagnosis.findings import EffectFinding, compute_excess_over_noise
 from slipwise.diagnosis.held_out_regime import find_untestable_reason
 from slipwise.diagnosis.indistinguishable import is_distinguishable, list_alike_pairs, list_known_effects
 from slipwise.diagnosis.limitations import list_hidden_in_the_sum
-from slipwise.diagnosis.unknown_surface import ResidualSurface, leftover, structured
+from slipwise.diagnosis.unknown_surface import ResidualSurface, compute_share_of_floor, leftover, structured
 from slipwise.diagnosis.unknown_surface import above_noise as left_above_noise
 from slipwise.estimation.objective import Objective
 from slipwise.evidence.acceptance import LEAST
@@ -33,6 +33,8 @@ _UNCONFIRMED = 0.9
 _CARRIED_OVER = 0.5
 #: Mean squared residual of a held-out run over that of the motions left out, up to which they are left alike [1].
 _AS_LEFT_OUT = 1.5
+#: The balance in which many laws show.
+_MANY_LAWS = "pads"
 #: Error of a model in floors, and over that of the base model [1]: above both much is left unexplained.
 _MUCH = (3.0, 0.05)
 
@@ -88,7 +90,7 @@ def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materi
     origin, final = state.path[0], state.final
     surface = leftover(final)
     surface = surface if structured(surface) else None
-    rest = evidence_of_rest(origin, final, surface, state.unexplained)
+    rest = evidence_of_rest(origin, final, surface, state.unexplained, list_shares_of_limit(state))
     of_effects = {f.name: evidence_of(f) for f in found if not (f.at_limit or f.is_trifle)}
     decided = decide(of_effects, rest, limits.channel, load_calibration())
     kind = decided.kind
@@ -166,6 +168,7 @@ def evidence_of_rest(
     final: Hypothesis,
     surface: ResidualSurface | None,
     unexplained: Mapping[str, float] = MappingProxyType({}),
+    of_limit: Mapping[str, float] = MappingProxyType({}),
 ) -> dict[str, float]:
     """Return the numbers on which rests whether the effects that were found are the right ones, whatever they leave.
 
@@ -174,6 +177,7 @@ def evidence_of_rest(
         final: the model with the effects.
         surface: structure in what is left.
         unexplained: relation -> share of what is left that small imperfections do not explain; all where not given.
+        of_limit: as of `list_shares_of_limit`.
     """
     over = left_above_noise(final, unexplained)
     where = max(over, key=lambda relation: over[relation])
@@ -181,7 +185,31 @@ def evidence_of_rest(
         "explained": compute_explained_share_of_base(origin, final, where) if final.terms else 0.0,
         "left": surface.explained if surface else 0.0,
         "relative": float(np.log(max(over[where], 1e-6))),
+        "limit": float(np.log(of_limit.get(where, 1.0))),
     }
+
+
+def list_shares_of_limit(state: Search) -> dict[str, float]:
+    """Return relation -> share of the balance that a law of one limit of materiality leaves there, as a rule [1].
+
+    What matters is told by replays, in which a small force may change a slip by much. What is left has no name and
+    cannot be replayed without; of the catalogue's laws that show most in the pads half leave less there at one limit.
+    Other balances have too few laws for a rule.
+    """
+    here, weighed = state.linearisation, state.weighed
+    if here is None or weighed is None or _MANY_LAWS not in here.rows.relations:
+        return {}
+    place = here.rows.relations.index(_MANY_LAWS)
+    left = np.array([np.diag(each) for each in weighed.left_by_base])
+    own = [
+        j
+        for j, c in enumerate(weighed.columns)
+        if not c.gauge and c.form == 0 and 0.0 < left[place, j] == left[:, j].max()
+    ]
+    if not own:
+        return {}
+    floors = float(np.sqrt(np.median(left[place, own])))
+    return {_MANY_LAWS: floors * compute_share_of_floor(state.final, _MANY_LAWS)}
 
 
 def leaves_much(before: float, after: float) -> bool:

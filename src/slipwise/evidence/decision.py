@@ -43,8 +43,11 @@ class Decision:
 
 
 def is_left(rest: Mapping[str, float], least: float) -> bool:
-    """Return whether what is left matters; arguments as of `decide`."""
-    return bool(np.exp(rest["relative"]) >= least)
+    """Return whether what is left matters: as a share of the balance, or of what a law leaves that does.
+
+    Arguments as of `decide`.
+    """
+    return bool(np.exp(rest["relative"]) >= min(least, np.exp(rest.get("limit", 0.0))))
 
 
 def compute_chance_to_matter(of: Mapping[str, float], chances: Calibration) -> float:
@@ -66,8 +69,9 @@ def decide(
         effects: name -> its evidence, most important first: "lead" and so on as the calibration asks, "inclusion"
             (log-odds of the posterior that it matters), "gauge" (1 for a fault of gauges) and "rival" (standard errors
             by which the nearest rival is behind).
-        rest: evidence on what is left: "relative" (logarithm of its share of what a balance is made of), "left" (share
-            of it that has structure: then an effect may only stand for another law) and so on.
+        rest: evidence on what is left: "relative" (logarithm of its share of what a balance is made of), "limit"
+            (logarithm of the share that a law of one limit leaves there as a rule; 0 where that is not known), "left"
+            (share of it that has structure: then an effect may only stand for another law) and so on.
         least: share of a balance that matters [1].
         chances: the calibration.
     """
