@@ -25,7 +25,7 @@ from slipwise.cli.options import (
     start_model,
 )
 from slipwise.cli.workers import Cluster, Workers
-from slipwise.errors import InputError, unknown_name
+from slipwise.errors import InputError, SlipwiseError, unknown_name
 from slipwise.jobs.interruption import Stopped
 
 CampaignFolders = Annotated[
@@ -263,6 +263,9 @@ def _with_law(found: "sw.Diagnosis", console: Console) -> "sw.Diagnosis":
             found = sw.add_law(found, tell)
     except Stopped:
         say("the law was not looked for to the end; `slipwise discover` looks for it", console)
+        return found
+    except SlipwiseError as error:  # the verdict stands, and is written
+        say(f"no law could be looked for: {error}", console)
         return found
     if found.law:
         say(f"{found.law['words']} `slipwise discover` writes it as an effect.", console)

@@ -279,8 +279,10 @@ def values_of_form(columns: Sequence[CandidateColumn], sizes: Array, term: Term,
     values = dict(first.values)
     if form == OF_MODEL:
         share = float(sizes[members[0]]) * first.unit
-        ends = {p.name: float(p.neutral or 0.0) for p in strengths(effect)}
-        return values | {name: end + share * (values[name] - end) for name, end in ends.items()}
+        for p in strengths(effect):
+            end = float(p.neutral or 0.0)
+            values[p.name] = float(np.clip(end + share * (values[p.name] - end), p.low, p.high))
+        return values
     if not first.strength:
         return values
     values |= {p.name: float(p.neutral or 0.0) for p in strengths(effect)}

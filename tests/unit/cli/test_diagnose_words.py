@@ -6,10 +6,12 @@ import pytest
 
 from hypotheses import base, decided, diagnosed, left_by, searched
 from slipwise.campaign import Campaign
-from slipwise.cli.diagnose import _tell, diagnose
+from slipwise.cli.console import OUT
+from slipwise.cli.diagnose import _tell, _with_law, diagnose
 from slipwise.cli.diagnosis_files import _record
 from slipwise.cli.model_edit import tell_change
 from slipwise.diagnosis.unknown_surface import leftover
+from slipwise.errors import SettingError
 from slipwise.model import use
 from slipwise.record import Record
 from slipwise.selection.power import EffectPower
@@ -50,6 +52,18 @@ def test_who_listens_to_the_first_lines_only_finds_all_files(monkeypatch, tmp_pa
     with pytest.raises(BrokenPipeError):
         diagnose([tmp_path], out=tmp_path / "out")
     assert sorted(f.name for f in (tmp_path / "out").iterdir()) == ["diagnosis.json", "report.html"]
+
+
+def test_a_law_that_cannot_be_looked_for_leaves_the_verdict(monkeypatch, capsys):
+    def fails(*_: object) -> None:
+        raise SettingError("channel_offset.offset is out of bounds")
+
+    of = base(pads=20.0)
+    state = searched(of, left_by("heating", of=of, pads=19.0))
+    found = diagnosed(state, replace(decided(state), kind="unknown", effects=()))
+    monkeypatch.setattr("slipwise.discovery.discover.add_law", fails)
+    assert _with_law(found, OUT) is found
+    assert "no law could be looked for: channel_offset.offset is out of bounds" in capsys.readouterr().out
 
 
 def test_the_demo_says_what_is_left():

@@ -70,6 +70,12 @@ def test_what_is_left_matters_from_the_share_that_is_material() -> None:
     assert is_left(left(LEAST * 1.001, 0.0), LEAST) and not is_left(left(LEAST * 0.999, 0.0), LEAST)
 
 
+def test_what_is_left_matters_from_what_a_law_of_one_limit_leaves() -> None:
+    little = left(0.5 * LEAST, 0.0)
+    assert is_left({**little, "limit": float(np.log(0.4 * LEAST))}, LEAST)
+    assert not is_left({**little, "limit": float(np.log(0.6 * LEAST))}, LEAST)
+
+
 @pytest.mark.parametrize("way", [1.0, -1.0])
 def test_a_verdict_is_less_sure_the_nearer_an_effect_is_to_even_odds(way: float) -> None:
     sizes = (1.0, 2.0, 3.0, 4.0)  # named from 0.9 on

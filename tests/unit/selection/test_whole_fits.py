@@ -8,8 +8,11 @@ import pytest
 from slipwise.campaign import load_campaign
 from slipwise.campaign.materiality import Materiality
 from slipwise.estimation.base_fit import BaseFit, fit_base
+from slipwise.evidence.prior import OF_MODEL
 from slipwise.selection.averaged_rows import make_averaged_rows
 from slipwise.selection.candidates import at_odds, list_candidates, list_exclusions
+from slipwise.selection.columns import make_column
+from slipwise.selection.proposals import values_of_form
 from slipwise.selection.units import compute_units_of_fits
 from slipwise.selection.whole_fits import compute_columns_of_fits, fit_whole, make_fit_without
 from unit.campaign.slider import HEADER, RUNS, text
@@ -50,6 +53,14 @@ def test_what_a_small_step_does_not_show_a_whole_fit_does(base: BaseFit) -> None
     assert columns["presliding"].numbers > columns["restrainer"].numbers > 0
     units = compute_units_of_fits(base, list(fits.values()), Materiality())
     assert units["presliding", ""].share > 10.0, "it matters many times over"
+
+
+def test_sizes_of_a_form_stay_inside_the_bounds(base: BaseFit) -> None:
+    [term] = [t for t in list_candidates(base)[0] if t.label == "slide_curvature"]
+    p = term.effect.parameter("curvature")
+    column = make_column(term, OF_MODEL, None, {"curvature": p.high}, 1.0, np.ones(3))
+    assert values_of_form([column], np.array([0.5]), term, OF_MODEL)["curvature"] == pytest.approx(0.5 * p.high)
+    assert values_of_form([column], np.array([3.0]), term, OF_MODEL)["curvature"] == p.high
 
 
 def test_a_model_without_a_term_is_the_base_fit_again(base: BaseFit) -> None:
