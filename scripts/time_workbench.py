@@ -1,6 +1,6 @@
 """How long the workbench takes from a number that is dragged to the new curves, as the page's socket sees it.
 
-    python scripts/21_workbench.py [--quick] [--out out/workbench] [CAMPAIGN]
+    python scripts/time_workbench.py [--quick] [--out out/workbench] [CAMPAIGN]
 
 The campaign is opened by `slipwise workbench`, a program of its own. A number of the rig and then one of an effect are
 dragged, each step when the curves of the step before have come. Without a campaign one is made.
