@@ -23,7 +23,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 from session_campaign import write_session_campaign  # noqa: E402  # pyright: ignore[reportMissingImports]
 from workbench_server import Server  # noqa: E402  # pyright: ignore[reportMissingImports]
 
-#: Dragged numbers, each between these shares of its value; the second belongs to an effect that is put in first.
+#: Dragged numbers, the effect that is put in for them, and the ends between which they are dragged [SI].
 DRAGGED = (("rig.mass", "", 9.9e3, 10.1e3), ("run_in.rise", "run_in", 0.0, 0.3))
 #: So long nothing is said when nothing is at work, on a machine that is busy otherwise too [s].
 QUIET = 8.0

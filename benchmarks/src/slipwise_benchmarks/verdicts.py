@@ -16,19 +16,15 @@ from pathlib import Path
 from typing import Any
 
 from slipwise_benchmarks.family_score import accused, missed, named, right
+from slipwise_benchmarks.hidden import INSTRUMENTS, PHYSICS
+from slipwise_benchmarks.hidden_rig import FRAME_EFFECTS
 from slipwise_benchmarks.score import calibration
 
 VERDICTS = ("complete", "named", "ambiguous", "instrument", "unknown", "failed")
-#: What a verdict may name.
+#: What a verdict may name: what is hidden, what stands for it in single sliders, and what nobody hides.
 NAMES = frozenset(
-    """
-    breakaway presliding heating run_in rate_and_state pressure_law direction_asymmetry anisotropy position_patch
-    pad_spread slide_tilt slide_curvature uneven_seating mass_eccentricity buffer_damping buffer_hysteresis
-    buffer_hardening buffer_softening buffer_mismatch buffer_height key_clearance key_friction girder_bending guide_drag
-    table_pitch table_gain table_cross_axis superstructure restrainer machine_compliance backlash pad_compliance
-    channel_delay channel_gain channel_sign channel_offset channel_drift channel_filter channel_clipping
-    dropped_samples clock_skew load_crosstalk cell_inertia unknown
-    """.split()
+    {*PHYSICS, *INSTRUMENTS, *FRAME_EFFECTS, "restrainer", "machine_compliance", "backlash", "pad_compliance"}
+    | {"table_gain", "table_cross_axis", "unknown"}
 )
 #: Parts into which probabilities are cut for the table of calibration.
 FIFTHS = 5

@@ -209,8 +209,7 @@ def _without_effect(ground: Ground, term: Term) -> Ground:
     objective = replace(here, plain=plain).without_results()
     values, free, known = take_out(ground.solution, [term.label])
     solution = solve(objective, values, free, most=8, enough=_ENOUGH, rough=_ROUGH, begin=known)
-    lean = move_ground(ground, objective, with_slopes(objective, solution))
-    return replace(lean, system=leave_out(lean.system, {term.label}))
+    return move_ground(ground, objective, with_slopes(objective, solution))  # columns of what is in a model are gone
 
 
 def without_law(ground: Ground, found: FittedLaw) -> tuple[Objective, Solution]:

@@ -1,10 +1,16 @@
 """Words from elsewhere as text of a Python file: they can only be read, never run."""
 
+import keyword
 import textwrap
 from unicodedata import category
 
 #: Width of a line of words [characters].
 WIDTH = 120
+
+
+def is_name(text: str) -> bool:
+    """Return whether a text can be a name in Python."""
+    return text.isidentifier() and not keyword.iskeyword(text)
 
 
 def words(text: str) -> str:

@@ -3,7 +3,6 @@
 import fnmatch
 import functools
 import inspect
-import keyword
 import re
 import warnings
 from collections.abc import Callable, Mapping
@@ -20,6 +19,7 @@ from slipwise.effects._fault import SAMPLE_FAULTS
 from slipwise.effects._fields import BASE_ROLES, ENDS, NEEDS, SITS, ForDiagnosis, Gauges, Limit, Rare
 from slipwise.effects._flat_fields import what_to_write
 from slipwise.effects._hooks import COMPONENTS, HOOKS, LAGGING, PORTS, SIDES
+from slipwise.effects._python_text import is_name
 from slipwise.errors import SettingError, SlipwiseWarning, unknown_name
 from slipwise.params import Parameter
 
@@ -43,7 +43,7 @@ def read_effect(module: ModuleType, path: Path) -> Effect:
         SettingError: the file breaks the contract; the message says where and how to mend it.
     """
     name = path.stem
-    if not name.isidentifier() or keyword.iskeyword(name) or not name.isascii():
+    if not is_name(name) or not name.isascii():
         raise SettingError(
             f"{path.name}: the file's name is the effect's, which is a name in Python too: use letters, digits and _, "
             "for example my_effect.py"

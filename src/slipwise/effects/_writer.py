@@ -4,7 +4,6 @@ Code comes from the program that writes: the lines of the hooks. All else are wo
 campaign or a path, so whatever could end a quotation is taken from them.
 """
 
-import keyword
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -15,7 +14,7 @@ from pathlib import Path
 from slipwise.effects._catalogue import catalogue
 from slipwise.effects._effect import CONTRACT
 from slipwise.effects._hooks import PORTS
-from slipwise.effects._python_text import WIDTH, paragraph, sentence, words
+from slipwise.effects._python_text import WIDTH, is_name, paragraph, sentence, words
 from slipwise.effects._written_hook import HOMES, WrittenHook, function_text, names_from_elsewhere
 from slipwise.errors import SettingError, unknown_name
 from slipwise.params import Parameter
@@ -145,7 +144,7 @@ def _check(written: WrittenEffect) -> None:
             raise unknown_name(f"hook of port {written.port!r}", hook.name, PORTS[written.port])
     names = [*(a for hook in written.hooks for a in hook.arguments), *(p.name for p in written.parameters)]
     for name in (*names, *written.memory, *written.confused_with):
-        if not _is_name(name):
+        if not is_name(name):
             raise SettingError(f"{name!r} in effect {written.name!r} is no name in Python: use letters, digits and _")
     for p in written.parameters:
         for value in (p.typical, p.low, p.high, p.neutral):
@@ -162,7 +161,7 @@ def check_name(name: str) -> None:
     Raises:
         SettingError: it is no name in Python, that of a module, or one of the catalogue.
     """
-    if not _is_name(name) or not name.isascii() or name.startswith("_"):
+    if not is_name(name) or not name.isascii() or name.startswith("_"):
         raise SettingError(
             f"{name!r} cannot be the name of an effect, which is one in Python too: use letters a to z, digits and _, "
             "and begin with a letter, for example my_effect"
@@ -182,10 +181,6 @@ def _is_module(name: str) -> bool:
         return True
     installed = [place for place in sys.path if Path(place).name in ("site-packages", "dist-packages")]
     return PathFinder.find_spec(name, installed) is not None
-
-
-def _is_name(text: str) -> bool:
-    return text.isidentifier() and not keyword.iskeyword(text)
 
 
 def _entries(written: WrittenEffect) -> dict[str, str]:
