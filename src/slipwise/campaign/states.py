@@ -64,6 +64,7 @@ class States:
         missing: what could not be made for lack of a channel, in words.
         scales: of the campaign.
         velocity_errors: (n,) of the velocity along x where they differ from sample to sample [m/s]; else None.
+        position_error: expected standard deviation of one sample of the slip, where no accelerometer smoothed it [m].
         load_errors: (p,) expected error of loads that no cell weighed, made of weight and inertia [N]; None where the
             loads were measured.
     """
@@ -92,6 +93,7 @@ class States:
     missing: tuple[str, ...]
     scales: Scales = field(default_factory=Scales)
     velocity_errors: Array | None = None
+    position_error: float = 0.0
     load_errors: Array | None = None
 
     @property
@@ -205,6 +207,7 @@ def measured_states(run: Run, campaign: Campaign) -> States:
         has_yaw=yaw is not None,
         lowpass=lowpass,
         velocity_errors=along.velocity_errors,
+        position_error=along.position_error,
         load_errors=load_errors,
         velocity_error=(along.velocity_error, across.velocity_error if across else 0.0),
         yaw_rate_error=yaw.velocity_error if yaw else 0.0,
@@ -320,6 +323,7 @@ def _along(
         bias=fused.bias,
         velocity_error=fused.velocity_error,
         velocity_errors=fused.velocity_errors,
+        position_error=fused.position_error,
     )
 
 

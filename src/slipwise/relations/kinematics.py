@@ -90,12 +90,12 @@ def _make_yaw(inputs: Inputs) -> list[tuple[Array, Array]]:
     return found
 
 
-def compute_pad_states(inputs: Inputs, velocity_errors: float = 0.0) -> list[Instants]:
+def compute_pad_states(inputs: Inputs, errors: float = 0.0) -> list[Instants]:
     """Return the states of every pad in the runs.
 
     Args:
         inputs: of a stage.
-        velocity_errors: number of expected errors of the velocity that are added [1].
+        errors: number of expected errors that are added to the velocity, and to the slip between samples [1].
     """
     runs, measurements, lost = inputs.of(CORRECTED).runs, inputs.measurements, inputs.weighed("lost")
     pads = np.array(measurements.specimen.pad_places)[measurements.pads_here]
@@ -107,13 +107,13 @@ def compute_pad_states(inputs: Inputs, velocity_errors: float = 0.0) -> list[Ins
     for place, run in enumerate(runs):
         velocity = run.states.pad_velocity[:, here].copy()
         velocity[:, :, 0] += pitch_slip * measurements.pitch_rates[place][:, None]
-        velocity[:, :, 0] += velocity_errors * run.states.pad_velocity_errors[:, here]
+        velocity[:, :, 0] += errors * run.states.pad_velocity_errors[:, here]
         slip = run.states.pad_slip[:, here]
         if inputs.makes_yaw:
             angle, rate = inputs.of(YAW)[place]
             velocity = velocity + rate[:, None, None] * round_about
             slip = slip + angle[:, None, None] * round_about
-        out.append(evaluate_states_at_instants(run, velocity, slip, lost[place][:, here] if lost else None))
+        out.append(evaluate_states_at_instants(run, velocity, slip, lost[place][:, here] if lost else None, errors))
     return out
 
 

@@ -45,12 +45,23 @@ def compute_reversal_noise(run: FitRun, plain: Array, slower: Array, faster: Arr
     """
     timing = np.hypot(TIMING * run.scales.time, run.unseen / np.sqrt(12.0))
     velocity = 0.5 * ((slower - plain) ** 2 + (faster - plain) ** 2)
-    squared = velocity + (timing * np.gradient(plain, run.dt, axis=0)) ** 2
+    squared = velocity + (timing * np.gradient(plain, run.dt, axis=0)) ** 2 + _compute_place_noise(run, plain) ** 2
     if run.filtered is not None:
         reach = int(np.ceil(_SPREAD / (run.filtered.frequency * run.dt)))
         # a few newtons beside a reversal, the same at every reversal, are below one sample's noise but bend the fit
         squared = maximum_filter1d(squared, 2 * reach + 1, axis=0)
     return np.sqrt(squared)
+
+
+def _compute_place_noise(run: FitRun, plain: Array) -> Array:
+    """Return what an error of the slip itself makes of friction that turns round over a length of slip (n, p) [N].
+
+    A pad that moves by less than the error within a sample may be anywhere within that sample.
+    """
+    error = run.states.position_error
+    if not error:
+        return np.zeros_like(plain)
+    return error * np.gradient(plain, axis=0) / np.maximum(np.abs(np.gradient(run.slip)), error)[:, None]
 
 
 def compute_pad_noise(run: FitRun, plain: Array, reversal: Array) -> Array:

@@ -136,6 +136,7 @@ def _judge(base: BaseFit, proposed: _Proposed, tell: Callable[[str, float], None
         state = _with_rivals(state, proposal, candidates, found)
         tell("weighing", 0.95)
         state, steps = _climb(state, found)
+        state, found, steps = _never_above_fewer_terms(state, found, steps)
         state = replace(state, path=(origin, *steps, complete_jacobian(found)))
         state = replace(state, final_refit=complete_jacobian(refit_for_report(found)))
     else:
@@ -199,6 +200,23 @@ def _climb(state: Search, found: Hypothesis) -> tuple[Search, list[Hypothesis]]:
     order = sorted(found.terms, key=lambda t: -seen.get(t.effect.name, 0.0))
     state, steps = try_all(state, [(order[:k], {}) for k in range(1, len(order))], found)
     return state, sorted(steps, key=lambda h: len(h.terms))
+
+
+def _never_above_fewer_terms(
+    state: Search, found: Hypothesis, steps: list[Hypothesis]
+) -> tuple[Search, Hypothesis, list[Hypothesis]]:
+    """Return a model that is fitted at least as well as with fewer of its terms, and the steps up to it.
+
+    A fit that ends above one with fewer terms is in a local minimum: it begins again from there, and where that finds
+    nothing below, its other terms are not needed.
+    """
+    lower = min(steps, key=lambda h: h.solution.cost, default=found)
+    if lower.solution.cost >= found.solution.cost:
+        return state, found, steps
+    starts = {t.label: found.values_of(t) for t in found.terms}
+    state, anew = try_one(state, found.terms, starts, lower)
+    better = anew if anew.solution.cost < lower.solution.cost else lower
+    return state, better, [h for h in steps if len(h.terms) < len(better.terms)]
 
 
 def _with_rivals(state: Search, proposal: ProposedModel, terms: Sequence[Term], found: Hypothesis) -> Search:

@@ -50,6 +50,8 @@ class Fused:
         bias: (n,) of the accelerometers [m/s^2]; 0 without them.
         velocity_error: standard deviation that the smoother expects of its own velocity, in the middle [m/s].
         velocity_errors: (n,) as `velocity_error`, where it differs from sample to sample; else None.
+        position_error: standard deviation of one sample's position [m]; 0 with accelerometers, for an error of their
+            position is the same over many samples, and a law feels ways, not places.
     """
 
     position: Array
@@ -58,6 +60,7 @@ class Fused:
     bias: Array
     velocity_error: float
     velocity_errors: Array | None = None
+    position_error: float = 0.0
 
 
 def fuse(
@@ -110,7 +113,8 @@ def fuse(
         found, variances, jumps = _with_jumps(steps, ramp, half, place, found)
     if undersampled and acceleration is not None:
         jumps = squared_jumps(acceleration, float(found[2])) * steps**2 / 12.0
-    state, spread = smooth(steps, ramp, half, place, *variances, jumps)
+    state, spreads = smooth(steps, ramp, half, place, *variances, jumps)
+    spread = spreads[:, 1]
     with_bias = state[:, 2] if acceleration is not None else np.zeros(len(time))
     relative = -state[:, 2] if acceleration is None else acceleration - state[:, 2]
     return Fused(
@@ -120,6 +124,7 @@ def fuse(
         bias=with_bias,
         velocity_error=float(np.sqrt(np.median(spread) if undersampled else spread[len(time) // 2])),
         velocity_errors=np.sqrt(spread) if undersampled and jumps.any() else None,
+        position_error=float(np.sqrt(spreads[len(time) // 2, 0])) if acceleration is None else 0.0,
     )
 
 
@@ -143,6 +148,7 @@ def fuse_scaled(time: Array, position: Array, velocity: Array | None, seconds: f
         acceleration=found.acceleration * speed / seconds,
         bias=found.bias * speed / seconds,
         velocity_error=found.velocity_error * speed,
+        position_error=found.position_error * metres,
     )
 
 

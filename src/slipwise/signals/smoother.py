@@ -69,7 +69,7 @@ def unlikelihood(steps, ramp, half, place, gauge, speed, drive, walk, first, jum
 
 @kept()
 def smooth(steps, ramp, half, place, gauge, speed, drive, walk, first, jumps):  # pragma: no cover
-    """Filter forward and smooth backward; give the states (n, 3) and the variance of the velocity (n,)."""
+    """Filter forward and smooth backward; give the states (n, 3), the variances of position and velocity (n, 2)."""
     n = place.shape[0]
     before, after = np.zeros((n, 3)), np.zeros((n, 3))
     spread_before, spread_after = np.zeros((n, 3, 3)), np.zeros((n, 3, 3))
@@ -83,8 +83,8 @@ def smooth(steps, ramp, half, place, gauge, speed, drive, walk, first, jumps):  
         _correct(x, p, 0, place[k, 0], gauge)
         _correct(x, p, 1, place[k, 1], speed)
         after[k], spread_after[k] = x, p
-    variance = np.empty(n)
-    variance[n - 1] = p[1, 1]
+    variances = np.empty((n, 2))
+    variances[n - 1, 0], variances[n - 1, 1] = p[0, 0], p[1, 1]
     later = p.copy()
     for k in range(n - 2, -1, -1):
         dt = steps[k]
@@ -96,5 +96,5 @@ def smooth(steps, ramp, half, place, gauge, speed, drive, walk, first, jumps):  
         c = np.linalg.solve(spread_before[k + 1].T, across.T).T
         after[k] += c @ (after[k + 1] - before[k + 1])
         later = spread_after[k] + c @ (later - spread_before[k + 1]) @ c.T
-        variance[k] = later[1, 1]
-    return after, variance
+        variances[k, 0], variances[k, 1] = later[0, 0], later[1, 1]
+    return after, variances

@@ -107,3 +107,11 @@ def test_a_gauge_that_never_moves_gives_no_motion(accelerated, size):
     still = size * np.random.default_rng(0).normal(size=2000)
     found = fuse(time, still, 0.0 * still if accelerated else None, levels=(1e-16, 1e-12) if accelerated else None)
     assert np.abs(found.velocity).max() < 1e-8
+
+
+def test_a_gauge_that_is_smoothed_alone_knows_how_far_off_a_place_is():
+    time, position, _, _ = sine(2e-5)
+    found = fuse(time, position)
+    true = 0.01 * np.sin(2.0 * np.pi * 1.5 * time)
+    assert found.position_error == pytest.approx(np.std((found.position - true)[50:-50]), rel=0.25)
+    assert fuse_scaled(time, position, None, 1.0, 1.0).position_error == pytest.approx(found.position_error, rel=0.1)
