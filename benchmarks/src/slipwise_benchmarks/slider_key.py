@@ -47,13 +47,15 @@ def _entry(
 ) -> dict[str, Any]:
     other = [force_of(gone, drive) for drive in drives]
     taken = slice(None, None, FINE * _EVERY)
-    changes = [float(np.std(a - b) / np.std(a)) for a, b in zip(there, other, strict=True)]
+    moved = [(float(np.sqrt(np.mean((a - b) ** 2))), float(np.std(a))) for a, b in zip(there, other, strict=True)]
+    changes = [change / of for change, of in moved if of > 0.0]  # a test that never meets the wall has no force
     work = [[float(np.sum(0.5 * (f[1:] + f[:-1]) * np.diff(d.slip))) for f, d in zip(of, drives, strict=True)]
             for of in (there, other)]  # fmt: skip
     energy = (work[1][-1] - work[0][-1]) / work[0][-1] if abs(work[0][-1]) > 0.0 else 0.0
     if bearing.mu_fast == 0.0:  # a spring gives back all of it
         energy = 0.0
-    noise = [bearing.noise[0] * float(np.abs(f).max()) for f in there]
+    most = max(float(np.abs(f).max()) for f in there)
+    noise = [bearing.noise[0] * (float(np.abs(f).max()) or most) for f in there]
     residual = np.concatenate([(a - b)[taken] / n for a, b, n in zip(there, other, noise, strict=True)])
     columns = np.concatenate([_base(bearing, d)[taken] / n for d, n in zip(drives, noise, strict=True)])
     scale = np.sqrt((columns**2).mean(axis=0))

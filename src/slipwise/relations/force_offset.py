@@ -30,11 +30,19 @@ def free_zero(runs: Sequence[FitRun]) -> Free | None:
         runs: of one slider, those that may be fitted.
     """
     middles = list(chain.from_iterable(_middles(run) for run in runs))
-    usual = float(np.sqrt(np.mean(np.concatenate([run.force.ravel() for run in runs]) ** 2)))
-    most = _SHARE * usual
+    most = compute_largest_zero(runs)
     if not np.isfinite(middles).all() or np.ptp(middles) > most:
         return None
     return Free(ZERO, float(np.clip(np.median(middles), -most, most)), -most, most, 0.1 * most, "N")
+
+
+def compute_largest_zero(runs: Sequence[FitRun]) -> float:
+    """Return by how much a slider's friction gauge may be off before that is a fault [N].
+
+    Args:
+        runs: of one slider.
+    """
+    return _SHARE * float(np.sqrt(np.mean(np.concatenate([run.force.ravel() for run in runs]) ** 2)))
 
 
 def _middles(run: FitRun) -> list[float]:

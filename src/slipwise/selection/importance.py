@@ -16,6 +16,7 @@ from slipwise.campaign.materiality import Materiality
 from slipwise.campaign.rig_motion import rig_motion
 from slipwise.comparison.measured_replay import choose_simulation_step, get_measured_motion
 from slipwise.comparison.system_level import build_replayed_model
+from slipwise.effects import Effect
 from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval
@@ -23,7 +24,8 @@ from slipwise.estimation.objective import Objective
 from slipwise.jobs.parallel import on_every_core
 from slipwise.model import Model
 from slipwise.motion.resample import resample
-from slipwise.relations.parameters import Term
+from slipwise.relations.force_offset import compute_largest_zero
+from slipwise.relations.parameters import ZERO, Term
 from slipwise.relations.run_data import FitRun
 from slipwise.rig.build import largest_step
 from slipwise.short_repr import short_repr
@@ -105,13 +107,23 @@ def compute_importance(final: BaseFit, terms: Sequence[Term], sizes: Sequence[In
         whole, without = answers["", shown].responses, answers[name, shown].responses
         responses = {r: _change(without[r] / size - 1.0, spread) for r, size in whole.items() if size > 0.0}
         channels: dict[str, float] = {}
+        zero = _usual_zero(objective, of[0].effect)
         for place in places[name]:
             one, other = answers["", place].channels, answers[name, place].channels
             measured = objective.run(place).record
             for c in (c for c in one if c in measured):
-                channels[c] = max(channels.get(c, 0.0), compute_share_of_channel(other[c] - one[c], measured[c]))
+                change = other[c] - one[c]
+                within = c.endswith("_Fx") and np.abs(change).max() < zero
+                share = 0.0 if within else compute_share_of_channel(change, measured[c])
+                channels[c] = max(channels.get(c, 0.0), share)
         out[name] = Importance(responses, channels, of[0].effect.port == "gauge")
     return out
+
+
+def _usual_zero(objective: Objective, effect: Effect) -> float:
+    """Return by how much an effect may shift a slider's friction gauge and be its zero all the same [N]."""
+    shifts = effect.port == "gauge" and ZERO in effect.stands_for and not objective.specimen.free
+    return compute_largest_zero(objective.fitted_runs) if shifts else 0.0
 
 
 @dataclass(frozen=True)
