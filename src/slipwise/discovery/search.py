@@ -124,9 +124,10 @@ def move_ground(ground: Ground, objective: LawObjective, solution: Solution) -> 
     ends = set(solution.at_bounds)
     kept = [j for j, f in enumerate(solution.free) if f.key not in ends]
     keys = [solution.free[j].key for j in kept]
-    added = labels - {t.label for t in ground.base.objective.terms}
+    laws = {law.label for law in objective.laws}
+    unknown = {f.key for f in ground.base.free} | {key for key in keys if key.rpartition(".")[0] in laws}
     left, slopes = solution.residuals.stacked(objective.fitted), rows.average(solution.jacobian)
-    tolerances = list_tolerances(solution, objective.plain.specimen, added, keys)
+    tolerances = list_tolerances(solution, objective.plain.specimen, unknown, keys)
     system = make_curve_system(
         rows, rows.average(left), slopes[:, kept], keys, beside, tolerances, ground.system.apart, ground.system.block
     )

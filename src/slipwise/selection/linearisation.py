@@ -104,13 +104,13 @@ def linearise(
             column = whole / sizes[term.label]
             own.append(make_column(term, OF_MODEL, None, found.values_of(term), 1.0 / sizes[term.label], column))
             left = left - whole
-    labels = {t.label for t in found.terms}
+    of_rig = {f.key for f in base.free}
     strong = {f"{t.label}.{p.name}" for t in found.terms for p in strengths(t.effect)}
     ends = set(solution.at_bounds)  # what has run against a bound makes up for nothing
     free = [j for j, key in enumerate(keys) if key not in strong | ends]  # of a strength the whole effect tells
-    of_base = np.array([keys[j].rpartition(".")[0] not in labels for j in free], bool)
+    of_base = np.array([keys[j] in of_rig for j in free], bool)
     kept, names = slopes[:, free], tuple(keys[j] for j in free)
-    tolerances = list_tolerances(solution, found.objective.specimen, labels, names)
+    tolerances = list_tolerances(solution, found.objective.specimen, of_rig, names)
     every = (*columns, *own)
     statistics = compute_statistics(rows, left, fitted, kept, of_base, every)
     numbers = tuple(solution.free[j] for j in free)
@@ -136,14 +136,17 @@ def _whole_effect(here: BaseFit, term: Term, rows: AveragedRows, slopes: Array, 
 
 
 def list_tolerances(
-    solution: Solution, specimen: Specimen, labels: Collection[str], keys: Sequence[str]
+    solution: Solution, specimen: Specimen, unknown: Collection[str], keys: Sequence[str]
 ) -> dict[int, tuple[float, float]]:
     """Return what is known of numbers that are fitted whatever is missing; see `compute_posterior`.
+
+    A number that came with an effect stays near what was fitted with it, an inertia of the girder too: the inertia by
+    which a pitching table shows, free down to nothing, would stand for its absence.
 
     Args:
         solution: of the fit.
         specimen: rated values.
-        labels: of the terms that were added to the base.
+        unknown: keys of numbers of which nothing but their bounds is known, the mass aside: those of the base fit.
         keys: of the numbers.
     """
     out: dict[int, tuple[float, float]] = {}
@@ -152,6 +155,6 @@ def list_tolerances(
         f = free[key]
         if key == "rig.mass":
             out[place] = ((specimen.mass - solution.values[key]) / f.scale, _MASS * specimen.mass / f.scale)
-        elif key.rpartition(".")[0] in labels:
+        elif key not in unknown:
             out[place] = (0.0, _CONSTANTS * float(np.clip(abs(solution.values[key]) / f.scale, _LEAST, 1.0)))
     return out
