@@ -61,6 +61,8 @@ def load_campaign(folder: Path | str) -> Campaign:
         UnknownNameError: a key, channel, role or rig that does not exist; names the nearest ones.
     """
     folder = Path(folder)
+    if folder.is_file():
+        raise InputError(f"{folder}: a file; a campaign is the folder in which it is, {folder.parent}")
     if not folder.is_dir():
         raise InputError(f"{folder}: no such folder; a campaign is a folder with campaign.toml and data files")
     settings = read_settings(folder / "campaign.toml")

@@ -104,7 +104,9 @@ def read_settings(path: Path, *, runs_needed: bool = True) -> Settings:
     try:
         content = tomllib.loads(read_input(path).decode("utf-8-sig"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise InputError(f"{path}: not valid TOML: {error}") from None
+        raise InputError(
+            f"{path}: not valid TOML: {error}; texts stand in quotes, and every key has a line of its own"
+        ) from None
     _keys(content, _TOP, f"{path.name}")
     for needed, example in (("rig", '"bridge1"'), ("run", '[[run]] with file = "..." and role = "fit"')):
         if needed not in content and (needed != "run" or runs_needed):

@@ -123,7 +123,8 @@ def check_time(name: str, time: Array, tables: tuple[RowBlock, ...]) -> None:
         words = "repeats" if time[k + 1] == time[k] else "runs backwards"
         raise InputError(
             f"{name}: the time {words} {len(back)} times, first from {time[k]:.6g} s in data row {k + 1} to "
-            f"{time[k + 1]:.6g} s; every sample needs a later time: cut the file or give a window's own file"
+            f"{time[k + 1]:.6g} s; every sample needs a later time than the one before: "
+            "export it again, or cut it where the time jumps"
         )
     step = float(np.median(np.diff(time)))
     if not _STEP_RANGE[0] <= step <= _STEP_RANGE[1]:

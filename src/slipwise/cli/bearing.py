@@ -7,7 +7,7 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import out_folder, print_json, say, say_corrections, say_next, steps
-from slipwise.cli.options import Allowed, CampaignFolder, Figures, Json, ModelFile, Trusted, start_model
+from slipwise.cli.options import Allowed, CampaignFolder, Figures, Json, ModelFile, Trusted, refuse_unnamed, start_model
 
 
 def bearing(
@@ -35,6 +35,7 @@ def bearing(
 
     measured = sw.load_campaign(campaign)
     start = start_model(campaign, model, trust, effect)
+    refuse_unnamed(effect, start)
     folder = out_folder(out)
     without_workbook = ""
     with steps() as tell:

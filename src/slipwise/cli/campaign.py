@@ -19,6 +19,7 @@ from slipwise.cli.options import (
     System,
     Trusted,
     own_effects,
+    refuse_unnamed,
     start_model,
 )
 
@@ -109,6 +110,7 @@ def compare(
     recording = can_record(recording)
     measured = sw.load_campaign(campaign)
     start = start_model(campaign, model, trust, effect)
+    refuse_unnamed(effect, start)
     folder = out_folder(out)
     with steps() as tell:
         if correct:

@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 import slipwise as sw
+from slipwise.errors import InputError
 
 CampaignFolder = Annotated[Path, typer.Argument(help="Folder with campaign.toml and the measured runs.")]
 System = Annotated[bool, typer.Option(help="Replay the models in MuJoCo as well (system level).")]
@@ -42,6 +43,23 @@ def start_model(
     beside = campaign / "model.toml"
     path = given or (beside if beside.is_file() else None)
     return None if path is None else sw.load_model(path, trust=trust or allowed or ())
+
+
+def refuse_unnamed(allowed: list[str] | None, start: "sw.Model | None") -> None:
+    """Refuse effect files that may be run where the model to start from does not name them: nothing would run.
+
+    Raises:
+        InputError: a file that the model does not name.
+    """
+    uses = start.uses if start is not None else ()
+    named = {str(use.effect.path.resolve()) for use in uses if use.effect.path != Path()}
+    for path in allowed or []:
+        if str(Path(path).resolve()) not in named:
+            here = ", ".join(sorted(named)) or "none"
+            raise InputError(
+                f"--effect {path}: the model to start from does not name it; effect files that it names: {here}; "
+                "`slipwise diagnose --effect` lets a file compete, `slipwise add` puts one into the model"
+            )
 
 
 def own_effects(given: list[str] | None, start: "sw.Model | None" = None) -> "tuple[sw.Effect, ...]":

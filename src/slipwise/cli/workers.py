@@ -9,7 +9,7 @@ import typer
 
 import slipwise as sw
 
-Workers = Annotated[int | None, typer.Option(help="Processes; as many as there are cores when not given.")]
+Workers = Annotated[int | None, typer.Option(min=1, help="Processes; as many as there are cores when not given.")]
 Cluster = Annotated[
     str | None,
     typer.Option(

@@ -120,7 +120,7 @@ def _first_lines(path: Path) -> tuple[bytes, list[str]]:
         with path.open("rb") as stream:
             head = stream.read(size)
         if not head.strip(b"\x00\r\n\t ;,"):
-            raise InputError(f"{path}: the file is empty")
+            raise InputError(f"{path}: the file is empty; export it again, or leave out what uses it")
         lines = re.split(r"\r\n|\n|\r", decoded(head))
         if len(head) < size:
             return head, lines

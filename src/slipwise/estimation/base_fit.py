@@ -26,6 +26,7 @@ from slipwise.relations.parameters import (
     make_terms,
 )
 from slipwise.relations.run_data import FitRun, fit_runs
+from slipwise.relations.sample_masks import LEAST_SAMPLES
 from slipwise.short_repr import short_repr
 
 #: Noise near reversals depends on the fit and the fit on the noise: each is made anew, and every fit ends where a step
@@ -109,18 +110,20 @@ def _refuse_too_short(objective: Objective, free: Sequence[Free]) -> None:
     if judged < len(free):
         raise InputError(
             f"{len(free)} numbers are to be fitted, and a law can be judged by {judged} samples of the runs that are "
-            f"not held out: {reason}; give longer runs"
+            f"not held out: {reason}, nor do fewer than {LEAST_SAMPLES} of a run; give longer runs"
         )
 
 
 def _judged_samples(objective: Objective, run: FitRun) -> int:
-    """Count the samples of a run by which at least one relation is judged."""
-    masks = [run.judged[relation].reshape(len(run.time), -1).any(axis=1) for relation in objective.relations]
-    return int(np.count_nonzero(np.any(masks, axis=0)))
+    """Count the samples of a run by which a relation is judged in which a law shows; too few tell nothing."""
+    names = [relation for relation in objective.relations if relation != "motion"]
+    masks = [run.judged[relation].reshape(len(run.time), -1).any(axis=1) for relation in names]
+    count = int(np.count_nonzero(np.any(masks, axis=0)))
+    return count if count >= LEAST_SAMPLES else 0
 
 
-def fit_roughly(campaign: Campaign, invalid: InvalidSamples | None = None) -> Mapping[str, float]:
-    """Return the numbers at which a rough fit of the paper's law ends, the logger's frequency among them if not known.
+def fit_roughly(campaign: Campaign, invalid: InvalidSamples | None = None) -> Solution:
+    """Return where a rough fit of the paper's law ends, the logger's frequency among its numbers if that is not known.
 
     Args:
         campaign: with at least one run that is not held out.
@@ -131,7 +134,7 @@ def fit_roughly(campaign: Campaign, invalid: InvalidSamples | None = None) -> Ma
     """
     model = scale_model(base_model(campaign.specimen), scales_of(campaign), typical=True)
     objective = make_objective(fit_runs(campaign, invalid), model.specimen, make_terms(model))
-    return _roughly(objective, free_numbers(campaign, model, objective), {})[1].values
+    return _roughly(objective, free_numbers(campaign, model, objective), {})[1]
 
 
 def scale_model(model: Model, scales: Scales, *, typical: bool) -> Model:
@@ -164,7 +167,15 @@ def scale_model(model: Model, scales: Scales, *, typical: bool) -> Model:
 
 
 def free_numbers(campaign: Campaign, model: Model, objective: Objective) -> list[Free]:
-    """Return what a fit of a model may change, with bounds that this campaign's strokes and gauges set."""
+    """Return what a fit of a model may change, with bounds that this campaign's strokes and gauges set.
+
+    Raises:
+        InputError: no run may be fitted.
+    """
+    if not objective.fitted_runs:
+        raise InputError(
+            "no run may be fitted: every run is held out; give one run or more the role fit in campaign.toml"
+        )
     length, known = objective.scales.length, campaign.logger.known
     free = list_base_numbers(
         model, balances=objective.balanced, forces=objective.forces_measured, loads=objective.loads_measured,

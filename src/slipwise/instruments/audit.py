@@ -176,10 +176,10 @@ def _of_samples(fault: SampleFault) -> AuditFinding:
 
 
 def _late_words(fault: SampleFault) -> str:
-    if all(name.startswith("pad_") for name in fault.channels):
-        return f"the cells of the pads come {fault.size:.3f} s late: their logger was started later"
     if len(fault.channels) == 1:
         return sentence(effect_of("late"), fault.channels[0], fault.size, "s")
+    if all(name.startswith("pad_") for name in fault.channels):
+        return f"the cells of the pads come {fault.size:.3f} s late: their logger was started later"
     return f"{', '.join(fault.channels)} come {fault.size:.3f} s late: their logger was started later"
 
 

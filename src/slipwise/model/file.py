@@ -120,11 +120,15 @@ def save_model(model: Model, path: Path | str) -> None:
 
 def _read(path: Path) -> tomlkit.TOMLDocument:
     if not path.is_file():
-        raise InputError(f"{path}: no such file; `slipwise init {path.parent}` drafts one")
+        raise InputError(
+            f"{path}: no such file; without --model a fit begins at the paper's law; `slipwise add` writes a model.toml"
+        )
     try:
         document = tomlkit.parse(read_input(path).decode("utf-8-sig"))
     except (TOMLKitError, UnicodeDecodeError, RecursionError) as error:
-        raise InputError(f"{path}: not valid TOML: {error}") from None
+        raise InputError(
+            f"{path}: not valid TOML: {error}; texts stand in quotes, and every key has a line of its own"
+        ) from None
     for key in document:
         if key not in _TOP:
             raise unknown_name(f"key in {path.name}", key, _TOP)

@@ -91,7 +91,8 @@ class System:
 
 
 def find_system(runs: list[PreparedRun], usable: Sequence[Relation], specimen: Specimen) -> System:
-    """Evaluate the relations, centred."""
+    """Evaluate the relations, centred; those that hold at too few samples to be told from a constant stay out."""
+    usable = _told_by_enough(runs, usable, specimen)
     stacked = stack_rows(runs, usable, specimen, _rated(usable, specimen))
     bare = System(runs, usable, specimen, stacked, {}, centred=True)
     single = [names[0] for names in group_gauges(runs[0].record).values() if len(names) == 1]
@@ -100,6 +101,12 @@ def find_system(runs: list[PreparedRun], usable: Sequence[Relation], specimen: S
         for name, rows in bare.part((channel,)).items():
             sizes[name][channel] = _rms(rows)
     return replace(bare, sizes=sizes)
+
+
+def _told_by_enough(runs: list[PreparedRun], usable: Sequence[Relation], specimen: Specimen) -> list[Relation]:
+    """Return the relations with more rows than are taken up by constants, a scale and the mean of every run."""
+    rows = {n: len(of) for n, of in stack_rows(runs, usable, specimen, _rated(usable, specimen)).residual.items()}
+    return [relation for relation in usable if rows.get(relation.name, 0) > len(relation.terms) + 1 + len(runs)]
 
 
 def divide_channels(runs: Sequence[PreparedRun], names: Sequence[str], factor: float) -> list[PreparedRun]:

@@ -34,6 +34,8 @@ _FROM = 22.0
 #: Shapes that are tried: order of one pass, and phase. Eight causal poles look like four there and back, which are
 #: taken: friction with a bristle falls a little steeper than a power, and would ask for the eight.
 _SHAPES = ((4, "zero"), (2, "zero"), (4, "causal"), (2, "causal"))
+#: Which of the two it is shows where pads reverse: a filter there and back rings before a reversal too.
+_THERE_AND_BACK, _CAUSAL = (4, "zero"), (8, "causal")
 #: Length of the stretches whose spectra are averaged [s].
 _STRETCH = 0.5
 #: The bend must show above the noise by this factor in power, and lie below this part of half the sampling rate [1].
@@ -55,6 +57,7 @@ class LoggerEstimate:
         high: upper end.
         why: how it was found, or why it was not.
         likeliest: what a fit takes the logger for, sure or not; None where nothing is known of it.
+        causal: a filter that falls as the likeliest one does and rings after a reversal only; None for other shapes.
     """
 
     lowpass: LowPass | None
@@ -62,6 +65,7 @@ class LoggerEstimate:
     high: float
     why: str
     likeliest: Logger | None = None
+    causal: LowPass | None = None
 
 
 @dataclass(frozen=True)
@@ -101,17 +105,48 @@ def determine_logger(
     likeliest = found.likeliest
     if likeliest is None:
         try:
-            start = dict(fit_roughly(campaign, invalid))
+            start = dict(fit_roughly(campaign, invalid).values)
         except InputError:  # what a fit lacks is told by whoever asks for one
             return campaign, found, start
         likeliest = Logger(LowPass(start["rig.logger"]), known=True)
+    elif found.causal is not None:
+        found, likeliest = _told_by_reversals(campaign, invalid, found, likeliest, found.causal)
     return replace(campaign, logger=replace(likeliest, thinning=campaign.logger.thinning)), found, start
+
+
+def _told_by_reversals(
+    campaign: Campaign, invalid: InvalidSamples, found: LoggerEstimate, likeliest: Logger, causal: LowPass
+) -> tuple[LoggerEstimate, Logger]:
+    """Return the estimate and the logger with that one of two filters that fall alike of which a rough fit leaves less.
+
+    Of 26 campaigns with a steep filter, most with a hidden effect, all nine that were filtered there and back left 0.5
+    to 18 % less with the one, and all causal ones of six and eight poles 0.7 to 47 % less with the other.
+    """
+    other = replace(likeliest, every=causal)
+    try:
+        costs = [fit_roughly(replace(campaign, logger=logger), invalid).cost for logger in (likeliest, other)]
+    except InputError:  # what a fit lacks is told by whoever asks for one
+        return found, likeliest
+    if costs[0] <= costs[1]:
+        return found, likeliest
+    before = likeliest.every
+    scale = causal.frequency / before.frequency if before is not None else 1.0
+    sure = found.lowpass is not None
+    why = f"{found.why}; eight causal poles rather than four there and back, for nothing rings before a reversal"
+    return (
+        replace(
+            found, lowpass=causal if sure else None, low=found.low * scale, high=found.high * scale, why=why,
+            likeliest=other,
+        ),
+        other,
+    )  # fmt: skip
 
 
 def estimate_logger(campaign: Campaign) -> LoggerEstimate:
     """Estimate frequency, order and phase of the filter that all channels went through.
 
-    Phase is told from the order only: forward and backward filters fall twice as steeply.
+    Phase is told from the order only: forward and backward filters fall twice as steeply. Beside a filter of four poles
+    there and back stand the eight causal ones that fall alike; `determine_logger` tells the two by a rough fit.
     """
     spectrum = _spectrum(campaign)
     if spectrum is None:
@@ -122,8 +157,8 @@ def estimate_logger(campaign: Campaign) -> LoggerEstimate:
     if len(frequency) < 24:
         return _unknown(f"sampled too slowly: nothing is seen above {frequency[-1] if len(frequency) else 0.0:.0f} Hz")
     # the last one is without a filter at all: a corner far above everything
-    asked = [*((order, phase, None) for order, phase in _SHAPES), (1, "causal", 50.0 * frequency[-1])]
-    *shapes, plain = on_every_core(
+    asked = [*((*shape, None) for shape in (*_SHAPES, _CAUSAL)), (1, "causal", 50.0 * frequency[-1])]
+    *shapes, eight, plain = on_every_core(
         lambda i: _fit(frequency, power, weight, *asked[i]), len(asked), "the logger's filter"
     )
     best = min(shapes, key=lambda shape: shape.cost)
@@ -131,12 +166,13 @@ def estimate_logger(campaign: Campaign) -> LoggerEstimate:
         return _unknown("the spectrum of friction falls evenly into the noise: no filter is seen", Logger(known=True))
     by = LowPass(best.corner, best.order, best.phase)
     likeliest = Logger(by, known=True)
+    causal = LowPass(eight.corner, *_CAUSAL) if (best.order, best.phase) == _THERE_AND_BACK else None
     level, slope, _, noise, _ = best.numbers
     if np.exp(level - slope * np.log(best.corner / 50.0)) < _ABOVE * np.exp(noise):
-        return _unknown(f"noise hides the bend near {best.corner:.0f} Hz", likeliest)
+        return _unknown(f"noise hides the bend near {best.corner:.0f} Hz", likeliest, causal)
     spread = 1.96 * best.error
     if spread > _WIDEST:
-        return _unknown(f"the bend near {best.corner:.0f} Hz is uncertain by {spread:.0%}", likeliest)
+        return _unknown(f"the bend near {best.corner:.0f} Hz is uncertain by {spread:.0%}", likeliest, causal)
     alike = [shape for shape in shapes if shape.cost < best.cost + 4.0 and shape is not best]
     corners = [best.corner, *(shape.corner for shape in alike)]
     why = "from the bend in the spectrum of friction"
@@ -144,11 +180,11 @@ def estimate_logger(campaign: Campaign) -> LoggerEstimate:
         others = " or ".join(f"{shape.corner:.0f} Hz, order {shape.order}, {shape.phase}" for shape in alike)
         why += f"; another filter with nearly the same response fits as well: {others}"
     low, high = min(corners) * np.exp(-spread), max(corners) * np.exp(spread)
-    return LoggerEstimate(by, float(low), float(high), why, likeliest)
+    return LoggerEstimate(by, float(low), float(high), why, likeliest, causal)
 
 
-def _unknown(why: str, likeliest: Logger | None = None) -> LoggerEstimate:
-    return LoggerEstimate(None, 0.0, 0.0, why, likeliest)
+def _unknown(why: str, likeliest: Logger | None = None, causal: LowPass | None = None) -> LoggerEstimate:
+    return LoggerEstimate(None, 0.0, 0.0, why, likeliest, causal)
 
 
 def _forces(record: Record) -> list[str]:

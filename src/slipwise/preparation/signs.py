@@ -28,6 +28,8 @@ from slipwise.signals.noise import white_level
 _AGAINST = -0.3
 #: The motion that is compared is slower than this [Hz]: rigid, and above the noise of a differentiated slip.
 _SLOW = 12.0
+#: A record of fewer periods of that shows no motion by which a sign could be told.
+_PERIODS = 4.0
 #: A pad slides fast above this part of the largest rate [1].
 _FAST = 0.2
 #: Accelerations that leave more than this part of the slip's own say nothing of signs [1].
@@ -101,6 +103,8 @@ def _smooth(record: Record) -> Callable[[Array], Array]:
 
 def _accelerations(record: Record) -> Iterable[tuple[str, float]]:
     """Yield slip and horizontal accelerations with +1, or -1 for the one whose turning makes them agree."""
+    if len(record) * record.dt < _PERIODS / _SLOW:
+        return
     smooth = _smooth(record)
     for axis in "xy":
         names = [f"slip_{axis}", f"girder_a{axis}", f"table_a{axis}"]

@@ -27,6 +27,8 @@ _USES: dict[str, tuple[str, ...]] = {
     "storeys": ("storey_*_ax", "girder_ax", "pad_*_N"),
     "motion": VELOCITY_CHANNELS,
 }
+#: Fewer samples of a run tell nothing.
+LEAST_SAMPLES = 8
 #: Relations that ring on with what was before.
 _FROM_BEFORE = ("motion", "pitch")
 #: How far a cut is felt in slip against accelerometers: 20 noise variances after 50 ms, none after 100 [s].

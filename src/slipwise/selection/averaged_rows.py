@@ -15,6 +15,7 @@ from scipy.sparse import csr_array
 
 from slipwise.arrays import Array
 from slipwise.estimation.objective import Objective
+from slipwise.relations.sample_masks import LEAST_SAMPLES
 from slipwise.short_repr import short_repr
 
 #: Rows a second at most [Hz]: above it a girder's relations tell of resonances of gauges and cards.
@@ -25,8 +26,6 @@ _MOST = 5000
 _MAINS = (50.0, 60.0)
 #: A record of fewer periods of them would lose motion with the hum.
 _PERIODS = 50
-#: A series with fewer samples that are judged tells nothing.
-_LEAST = 8
 
 
 @short_repr
@@ -120,7 +119,7 @@ def make_averaged_rows(objective: Objective) -> AveragedRows:
         each = max(1, round(1.0 / (BAND * block.dt)) if objective.balanced else len(block.time) // _MOST)
         for column in range(width):
             judged = np.flatnonzero(mask[:, column])
-            if len(judged) < _LEAST:
+            if len(judged) < LEAST_SAMPLES:
                 continue
             edges = np.flatnonzero(np.r_[True, np.diff(judged // each) > 0])
             counts = np.diff(np.r_[edges, len(judged)])

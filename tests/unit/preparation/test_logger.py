@@ -7,7 +7,7 @@ import pytest
 
 from measured import fit_base
 from slipwise.campaign import Campaign, Logger
-from slipwise.preparation.logger import estimate_logger
+from slipwise.preparation.logger import determine_logger, estimate_logger
 from slipwise.signals.filters import LowPass, lowpass
 from slipwise_benchmarks import build_campaign
 from slipwise_benchmarks.in_memory import as_campaign
@@ -69,3 +69,20 @@ def test_a_slow_logger_says_nothing_and_is_fitted_all_the_same(rate):
     campaign = unstated(campaign.with_records(slow, "slow"))
     assert estimate_logger(campaign).likeliest is None
     assert fit_base(campaign).campaign.logger.known
+
+
+@pytest.mark.parametrize("shape", [(4, "zero"), (8, "causal")])
+def test_eight_causal_poles_are_told_from_four_there_and_back_by_what_rings_before_a_reversal(shape):
+    """Both fall alike; with the wrong one a complete model leaves twice the floor on its pads."""
+    campaign = as_campaign(build_campaign(31, effects=(), rig="bridge1"))
+    by = LowPass(40.0, *shape)
+    records = {
+        run.name: run.record.replaced(**{n: lowpass(x, run.record.dt, by) for n, x in run.record.channels.items()})
+        for run in campaign.runs
+    }
+    filtered = unstated(campaign.with_records(records, "filtered"))
+    told, found, _ = determine_logger(filtered, {})
+    assert told.logger.every is not None and found is not None
+    assert (told.logger.every.order, told.logger.every.phase) == shape
+    assert told.logger.every.frequency == pytest.approx(40.0, rel=0.15)
+    assert found.likeliest is not None and found.likeliest.every == told.logger.every

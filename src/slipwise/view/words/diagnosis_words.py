@@ -89,7 +89,7 @@ def _next_words(found: Diagnosis) -> str:
             return "`slipwise discover` looks for its law."
         case "complete":
             return "Nothing: the model may be used as far as these motions go."
-    return f"Put it into the model: `slipwise diagnose --accept`. Then: {found.left_over}."
+    return f"Put it into the model: `slipwise diagnose CAMPAIGN --accept`. Then: {found.left_over}."
 
 
 def weighed(found: Verdict) -> tuple[str, ...]:
