@@ -30,6 +30,8 @@ from slipwise.signals.resample import slower_rate
 
 #: A pad's cell, and the share of what its like scatter below which it shows nothing but noise [1].
 _CELL, _IDLE = re.compile(r"pad_[A-Za-z0-9]+_(?P<kind>N|Fx|Fy)$"), 0.08
+#: A channel that is dead in one run is dead in another that scatters by so many times as much at most [1].
+_NOISY = 2.0
 #: A rail holds at least this many samples of a campaign, in one place at least that many, this part side by side [1].
 _RAIL, _LONG_RAIL, _BESIDE = 6, 15, 0.5
 #: A rail is met faster than this many standard deviations of noise, and this many steps of rounding, a sample [1].
@@ -141,8 +143,17 @@ def _dead(name: str, runs: Sequence[Run], specimen: Specimen, idle: Collection[s
     still |= {run.name for run in runs if _idle_beside_its_like(name, run, specimen)}
     if not still:
         return None
+    still |= {run.name for run in runs if _shows_what_it_shows_when_dead(name, run, still, runs)}
     bad = {run.name: np.ones(len(run.record), dtype=bool) for run in runs if run.name in still}
     return SampleFault("dead", (name,), -1.0, bad, tuple(bad))
+
+
+def _shows_what_it_shows_when_dead(name: str, run: Run, still: Collection[str], runs: Sequence[Run]) -> bool:
+    """Return whether a channel that is dead in other runs shows their value and their noise: its like hardly moves."""
+    dead = np.concatenate([other.record[name] for other in runs if other.name in still])
+    noise = _NOISY * float(np.std(dead))
+    here = run.record[name]
+    return float(np.std(here)) <= noise and abs(float(np.median(here)) - float(np.median(dead))) <= noise
 
 
 def _idle_beside_its_like(name: str, run: Run, specimen: Specimen) -> bool:

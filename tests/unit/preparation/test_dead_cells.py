@@ -8,6 +8,7 @@ import pytest
 from slipwise.campaign import Campaign, Logger, Run
 from slipwise.preparation.dead_cells import estimate_dead_loads
 from slipwise.preparation.sample_fault import SampleFault
+from slipwise.preparation.sample_faults import find_sample_faults
 from slipwise.record import Record
 from slipwise.relations.run_data import fit_runs
 from slipwise.rig import load_specimen
@@ -85,3 +86,18 @@ def test_no_balance_of_loads_is_judged_by_a_load_that_was_made_of_the_others_and
         assert one.judged[relation].any() and not two.judged[relation].any()
     assert two.judged["pads"][:, 3].any()
     assert two.noise["pad_D_N"] >= one.noise["pad_D_N"] and two.noise["pad_D_N"] >= found.error
+
+
+def test_a_noisy_cell_is_dead_in_a_run_too_in_which_its_like_hardly_move():
+    """Taken for alive there it showed a load of nothing, and no sample of the other runs was judged: the pad had lifted."""
+    made, _ = campaign("bridge1", {})
+    rng = np.random.default_rng(5)
+    records = {}
+    for run in made.runs:
+        share = 0.01 if run.name == "two" else 1.0
+        loads = {f"pad_{p}_N": run.record[f"pad_{p}_N"] for p in "ABC"}
+        quiet = {name: np.mean(load) + share * (load - np.mean(load)) for name, load in loads.items()}
+        swing = min(float(np.std(load)) for load in loads.values())
+        records[run.name] = run.record.replaced(**quiet, pad_D_N=0.02 * swing * rng.standard_normal(len(run.record)))
+    found = [f for f in find_sample_faults(made.with_records(records, "dead")) if f.kind == "dead"]
+    assert [(f.channels, f.runs) for f in found] == [(("pad_D_N",), ("one", "two"))]
