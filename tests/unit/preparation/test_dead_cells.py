@@ -89,7 +89,7 @@ def test_no_balance_of_loads_is_judged_by_a_load_that_was_made_of_the_others_and
 
 
 def test_a_noisy_cell_is_dead_in_a_run_too_in_which_its_like_hardly_move():
-    """Taken for alive there it showed a load of nothing, and no sample of the other runs was judged: the pad had lifted."""
+    """Taken for alive there it showed a load of nothing, and the pad seemed lifted in every other run."""
     made, _ = campaign("bridge1", {})
     rng = np.random.default_rng(5)
     records = {}
