@@ -212,6 +212,7 @@ def committed_pages() -> dict[Path, str]:
     """Give the made pages that are kept in the repository, as they should be."""
     stored = json.loads((DOCS / "validation.json").read_text(encoding="utf-8"))
     return {
+        DOCS / "command_line.md": command_line_page(),
         DOCS / "effects" / "index.md": effects_index(),
         DOCS / "validation.md": validation_page(stored),
         DOCS / "thresholds.md": thresholds_page(),

@@ -3,9 +3,9 @@
     python scripts/make_site.py && mkdocs build --strict
     python scripts/make_site.py && zensical build
 
-build/docs is docs with what only the site has: a page and a picture for every effect, the page of the command line and
-the API reference. Cells of wide tables carry the head of their column, by which docs/extra.css folds them on a narrow
-screen. The navigation stands in mkdocs.yml.
+build/docs is docs with what only the site has: a page and a picture for every effect, and the API reference. Cells of
+wide tables carry the head of their column, by which docs/extra.css folds them on a narrow screen. The navigation stands
+in mkdocs.yml.
 """
 
 import re
@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from make_docs import DOCS, MADE, command_line_page, effect_page
+from make_docs import DOCS, MADE, effect_page
 from reference import PAGES, reference_page
 from slipwise.effects import catalogue
 from slipwise.record import write_text
@@ -54,7 +54,6 @@ def read_pages() -> dict[Path, str]:
     """Return every page: its path below the site's sources, and its text."""
     pages = {path.relative_to(DOCS): path.read_text(encoding="utf-8") for path in sorted(DOCS.rglob("*.md"))}
     pages[Path("effects/index.md")] = linked(pages[Path("effects/index.md")])
-    pages[Path("command_line.md")] = command_line_page()
     pages |= {Path(f"reference/{page}.md"): f"{MADE}{reference_page(page)}" for page in PAGES}
     pages |= {Path(f"effects/{row['name']}.md"): effect_page(row) for row in effect_rows()}
     return pages

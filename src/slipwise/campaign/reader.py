@@ -2,6 +2,7 @@
 
 import hashlib
 import re
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
@@ -22,7 +23,7 @@ from slipwise.campaign.wild_samples import WildSamples, inherited, without_wild_
 from slipwise.campaign.wild_samples_of_runs import marked, warned
 from slipwise.channels import CHANNELS, channel, is_channel, part_of
 from slipwise.data_files.table import Table, open_table
-from slipwise.errors import InputError, UnitError, unknown_name
+from slipwise.errors import InputError, SlipwiseWarning, UnitError, unknown_name
 from slipwise.record import Record
 from slipwise.rig import Specimen, load_specimen
 from slipwise.rig.known import better_known
@@ -220,7 +221,7 @@ def _choose(
         if entry is None:
             match = HEADER.match(_plain(header))
             if match is None or not _is_channel(match["name"]):
-                notes.append(_not_used(header, match["name"] if match else header))
+                notes.append(_not_used(header, match["name"] if match else header, name))
                 continue
             if part_of(match["name"])[0] == "pad" and part_of(match["name"])[1] not in specimen.pads:
                 notes.append(
@@ -265,10 +266,14 @@ def _is_channel(name: str) -> bool:
     return is_channel(name)
 
 
-def _not_used(header: str, name: str) -> str:
+def _not_used(header: str, name: str, file: str) -> str:
+    """Say that a column is not used; what looks like a channel that is misspelt is a warning too."""
     near = get_close_matches(name, CHANNELS, n=1, cutoff=0.8)
     hint = f"; did you mean {near[0]}?" if near else ""
-    return f"column {header!r} is no channel and is not used{hint}"
+    words = f"column {header!r} is no channel and is not used{hint}"
+    if near:
+        warnings.warn(f"{file}: {words}", SlipwiseWarning, stacklevel=2)
+    return words
 
 
 def _to_si(path: Path, header: str, mapped: ColumnMap) -> tuple[float, float]:

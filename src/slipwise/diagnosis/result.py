@@ -208,7 +208,9 @@ class Diagnosis(Drawn, Tabular):
         chance = f"{100 * self.verdict.probability:.0f} %"
         names = " and ".join(self.verdict.effects)
         error = "held-out error" if self.search.base.objective.held_out else "error on the runs that were fitted"
-        fall = f"{error} {_short(self.recorded_error)} -> {_short(self.final_error)} times the noise floor"
+        before, base = _short(self.recorded_error), _short(self.base_error)
+        before += f" as recorded, {base} with what is wrong in the records put right" if before != base else ""
+        fall = f"{error} {before} -> {_short(self.final_error)} times the noise floor"
         beside = ", and something outside the catalogue" if self.verdict.unknown_beside else ""
         match self.verdict.kind:
             case "complete":

@@ -1,5 +1,6 @@
 """What the fit found, for the report: its numbers, the surface they mean, and whether unseen runs are predicted."""
 
+from math import isfinite
 from typing import Any
 
 from slipwise.comparison.result import Comparison
@@ -22,6 +23,8 @@ def fitted_numbers(found: Comparison) -> list[Any]:
         elif entry.bound:
             marked.append(len(rows))
             row["95 % interval"] = f"ended on its {entry.bound} bound"
+        elif not isfinite(entry.low + entry.high):
+            row["95 % interval"] = "these records do not tell it"
         else:
             row["95 % interval"] = f"{entry.low / factor:.5g} to {entry.high / factor:.5g}"
         row["rated"] = f"{entry.rated / factor:.5g}"
