@@ -92,7 +92,7 @@ def ladder_figure(found: Ladder) -> Figure:
         axes.set_ylim(0.0, 1.08 * largest)
     axes.set_ylabel("error / floor")
     screened, refitted = found.tried
-    words = f"{screened} candidates compared, {refitted} hypotheses refitted; {found.stopped}"
+    words = f"candidates compared: {screened}, hypotheses refitted: {refitted}; {found.stopped}"
     axes.set_xlabel(fill(words, _WIDEST))
     figure.legend(loc="outside upper right", ncols=4)
     return figure

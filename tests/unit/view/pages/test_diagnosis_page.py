@@ -101,7 +101,7 @@ def test_the_last_rungs_of_a_ladder_that_begins_far_up_are_told_apart():
 def test_a_ladder_says_how_much_was_tried_and_why_it_stops():
     with styled():
         (axes,) = ladder_figure(_ladder(_step(), stopped="no further effect is worth a step")).axes
-    assert axes.get_xlabel() == "102 candidates compared, 13 hypotheses refitted; no further effect is worth a step"
+    assert axes.get_xlabel() == "candidates compared: 102, hypotheses refitted: 13; no further effect is worth a step"
 
 
 def test_a_long_reason_stays_inside_the_picture_and_so_does_a_single_rung():
