@@ -355,7 +355,8 @@ def ladder(
     say_corrections(found.corrections)
     print_rungs(found)
     screened, refitted = found.tried
-    OUT.print(f"candidates compared: {screened}, hypotheses refitted: {refitted}, {found.seconds:.0f} s; {found.stopped}")
+    counts = f"candidates compared: {screened}, hypotheses refitted: {refitted}"
+    OUT.print(f"{counts}; {found.seconds:.0f} s; {found.stopped}")
     _wrote([content, picture])
     say_next(f"look at {picture}", f"`slipwise diagnose {quote(str(campaign))}` for how sure that is")
 

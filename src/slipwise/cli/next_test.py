@@ -56,7 +56,7 @@ def next_motion(
 
 def _next_steps(ranked: "sw.NextTest", campaign: Path) -> list[str]:
     best = next((p.motion for p in ranked.proposals if not p.refused and not p.failed), None)
-    if best is None:
+    if best is None or ranked.gain <= 0.0:
         return [f"`slipwise workbench {quote(str(campaign))}`"]
     return [
         f"shake the rig by {best}, add the run to campaign.toml, and `slipwise diagnose {quote(str(campaign))}` again",

@@ -49,6 +49,11 @@ class NextTest(Drawn, Tabular):
     sentence: str = ""
     corrections: tuple[DataCorrection, ...] = ()
 
+    @property
+    def gain(self) -> float:
+        """By how much the best of the motions would raise the probability of the best hypothesis [1]."""
+        return max((p.probability for p in self.proposals if not p.refused), default=0.0) - self.chances[0]
+
     def as_json(self) -> dict[str, Any]:
         """Return what next.json holds."""
         return {

@@ -85,8 +85,8 @@ def _errors(found: Comparison) -> list[Any]:
     pieces: list[Any] = [
         figure(
             figures.errors_figure(found),
-            "Error of every balance and channel in multiples of its noise floor. Left of the green line a model "
-            "cannot get; blue bars are runs that the fit has not seen.",
+            "Error of every balance and channel in multiples of its noise floor. A model that is right stands at the "
+            "green line, but for chance; blue bars are runs that the fit has not seen.",
             "Bars of error over floor for every balance and channel",
             narrow=figures.errors_figure(found, narrow=True),
         )
