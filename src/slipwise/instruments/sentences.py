@@ -16,6 +16,10 @@ _SHOWN: dict[str, tuple[float, str]] = {
 }
 
 
+#: How the end of a sentence turns round where a size is below zero.
+_OTHER_WAY = (("too much", "too little"), (" late", " early"), (" slow", " fast"))
+
+
 def shown(size: float, unit: str, effect: Effect) -> str:
     """Write the size of a gauge's fault in the unit in which people read it."""
     own = declared(effect).shown
@@ -31,8 +35,12 @@ def as_sentence(suspect: Suspect, size: float) -> str:
 
 
 def sentence(effect: Effect, place: str, size: float, unit: str) -> str:
-    """Write what a fault did on a place, and how much of it."""
-    return f"{place} {declared(effect).says.format(size=shown(size, unit, effect))}"
+    """Write what a fault did on a place, and how much of it; a size below zero is told as the other way."""
+    says = declared(effect).says
+    for more, less in _OTHER_WAY if size < 0.0 else ():
+        if says.endswith(more):
+            says, size = says.removesuffix(more) + less, -size
+    return f"{place} {says.format(size=shown(size, unit, effect))}"
 
 
 def confusable(effect: Effect) -> tuple[str, ...]:

@@ -6,7 +6,9 @@ Load and friction cells on a second logger that was started late: found by frict
 
 is fitted at every lag at which one of these resembles the sum of the pads' friction most; the lag that explains most
 of all runs together counts where without it much less is explained and no run contradicts it. Shorter delays are the
-fits' own business.
+fits' own business. Cells of load alone follow the inertia of the girder instead:
+
+    sum N(t + tau) = a girder_az(t) + d,      sum x N(t + tau) = a girder_ax(t) + b x(t) + sum c_i storey_i_ax(t) + d
 
 Accelerometers or slip gauges on a second logger that was started late: found by the motion that they share.
 
@@ -19,7 +21,7 @@ One cell on a module of its own: found by the other cells of its kind, which a r
 lag counts for all runs: a single tone is explained as well by a half period as by a wrong sign, an earthquake is not.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -121,6 +123,8 @@ def find_late_cells(campaign: Campaign) -> LateChannels | None:
     if not campaign.specimen.free:
         return None
     asked = [pair for run in campaign.runs if (pair := _friction_and_motion(run, campaign.specimen)) is not None]
+    if not asked:
+        asked = [pair for run in campaign.runs for pair in _loads_and_motion(run.record, campaign.specimen)]
     delay = _find_common_lag(asked, campaign.runs[0].record.dt)
     if delay is None:
         return None
@@ -140,6 +144,24 @@ def _friction_and_motion(run: Run, specimen: Specimen) -> tuple[Array, list[Arra
     if not all(np.isfinite(x).all() and np.ptp(x) > 0.0 for x in (force, *states)):
         return None
     return force, states
+
+
+def _loads_and_motion(record: Record, specimen: Specimen) -> Iterator[tuple[Array, list[Array]]]:
+    """Yield the sum of the pads' loads, and their moment across (n,), each with what explains it in step."""
+    names = [f"pad_{pad}_N" for pad in specimen.pads]
+    if not record.has_all(*names):
+        return
+    loads = np.stack([record[n] for n in names], axis=1)
+    places = np.array(specimen.pad_places, dtype=float)[:, 0]
+    along = ["girder_ax", "slip_x", *storey_channels(specimen.storeys)]
+    vertical = next(
+        (n for n in (["girder_az"], ["girder_az_1", "girder_az_2"], ["table_az"]) if record.has_all(*n)), []
+    )
+    for late, states in ((loads.sum(axis=1), vertical), (loads @ (places - places.mean()), along)):
+        if states and record.has_all(*states):
+            motion = [record[n] for n in states]
+            if all(np.isfinite(x).all() and np.ptp(x) > 0.0 for x in (late, *motion)):
+                yield late, motion
 
 
 def find_late_single_cells(campaign: Campaign) -> list[LateChannels]:

@@ -39,6 +39,17 @@ def test_how_late_cells_are_is_found_within_two_milliseconds(sound: Campaign, de
     assert found.delay == pytest.approx(delay, abs=2e-3)
 
 
+@pytest.mark.parametrize("delay", [0.0, 0.087, 1.145, -0.3])
+def test_load_cells_alone_show_by_inertia_how_late_they_are(sound: Campaign, delay: float) -> None:
+    loads = tuple(name for name in CELLS if name.endswith("_N"))
+    late = late_by(sound, delay, loads)
+    kept = {r.name: {n: x for n, x in r.record.channels.items() if not n.endswith("_Fx")} for r in late.runs}
+    runs = (replace(run, record=replace(run.record, channels=kept[run.name])) for run in late.runs)
+    found = find_late_cells(replace(late, runs=tuple(runs)))
+    assert (found is None) == (delay == 0.0)
+    assert found is None or (set(found.channels) == set(loads) and found.delay == pytest.approx(delay, abs=2e-3))
+
+
 @pytest.mark.parametrize("delay", [0.18, -0.3])
 def test_a_cell_on_a_late_module_is_found_by_the_others_and_is_not_taken_for_turned(
     sound: Campaign, delay: float
