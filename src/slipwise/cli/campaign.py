@@ -137,6 +137,8 @@ def compare(
     say_corrections(found.corrections)
     print_table("Error in multiples of the noise floor", error_rows(found))
     print_table("Noise of every gauge, one sample", gauge_rows(found.gauges))
+    for words in found.cannot:
+        say(f"not told: {words}")
     for path in files:
         say(f"wrote {path}")
     shown = [f"`slipwise view {quote(str(folder))}`"] if recording else []

@@ -19,6 +19,9 @@ def headline(found: Comparison) -> tuple[str, str, Tone]:
             "good",
         )
     words = f"{capital(NAMES[relation][0])} errs by {error:.3g} times the noise floor {where}."
+    if is_at_floor(error):
+        place = NAMES[found.places[0].relation][0]
+        return "Every balance is at its noise floor", f"{words} What is left has some structure in {place}.", "good"
     return f"The model fails in {NAMES[found.places[0].relation][0]}", words, "bad" if error > 3.0 else "warn"
 
 
