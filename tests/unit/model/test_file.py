@@ -147,7 +147,7 @@ def test_a_model_of_another_rig_is_refused_and_leaves_the_file_untouched(path: P
 
 
 def test_a_missing_file_says_how_to_get_one(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="slipwise init"):
+    with pytest.raises(InputError, match="slipwise add"):
         load_model(tmp_path / "model.toml")
 
 
