@@ -31,7 +31,7 @@ TIMING = 1e-4
 _SPREAD = 0.5
 
 
-def compute_reversal_noise(run: FitRun, plain: Array, slower: Array, faster: Array) -> Array:
+def compute_reversal_noise(run: FitRun, plain: Array, slower: Array, faster: Array, *, gradual: bool = False) -> Array:
     """Return the uncertainty of friction where pads reverse (n, p) [N]: errors of velocity and timing.
 
     Velocities may be wrong either way, and a reversal that one error hides the other one shows: both count, as the mean
@@ -42,10 +42,13 @@ def compute_reversal_noise(run: FitRun, plain: Array, slower: Array, faster: Arr
         plain: (n, p) predicted by the law [N].
         slower: (n, p) predicted with velocities along x that are one expected error too small [N].
         faster: (n, p) the same with velocities that are one expected error too large [N].
+        gradual: whether friction turns round over a length of slip, which an error of the slip shifts.
     """
     timing = np.hypot(TIMING * run.scales.time, run.unseen / np.sqrt(12.0))
     velocity = 0.5 * ((slower - plain) ** 2 + (faster - plain) ** 2)
-    squared = velocity + (timing * np.gradient(plain, run.dt, axis=0)) ** 2 + _compute_place_noise(run, plain) ** 2
+    squared = velocity + (timing * np.gradient(plain, run.dt, axis=0)) ** 2
+    if gradual:
+        squared += _compute_place_noise(run, plain) ** 2
     if run.filtered is not None:
         reach = int(np.ceil(_SPREAD / (run.filtered.frequency * run.dt)))
         # a few newtons beside a reversal, the same at every reversal, are below one sample's noise but bend the fit

@@ -58,7 +58,10 @@ def weigh(evaluation: Evaluation) -> Weighing:
     for forces in (plain, slower, faster):  # a delayed gauge shows its reversals, and their noise, later too
         for i, run in enumerate(runs):
             forces[i] = forces[i] + apply_on_force(faults, values, run, forces[i])[1]
-    reversal = [compute_reversal_noise(*each) for each in zip(runs, plain, slower, faster, strict=True)]
+    gradual = any(term.effect.reverses for term in evaluation.terms)
+    reversal = [
+        compute_reversal_noise(*each, gradual=gradual) for each in zip(runs, plain, slower, faster, strict=True)
+    ]
     sigmas: dict[str, tuple[Array, ...]] = {}
     if measurements.forces_measured:
         sigmas["pads"] = tuple(compute_pad_noise(*each) for each in zip(runs, plain, reversal, strict=True))

@@ -175,9 +175,9 @@ def _several_starts(
 ) -> Solution:
     """Fit one slider from several starts: its material may be far from any rated value.
 
-    Friction that does not depend on speed, as high as the record's usual force, is tried beside the base fit, and so is
-    the rated material: without the law that is missing, the base fit may have ended far from either. A length of slip
-    is tried also at several shares of the stroke.
+    Friction that does not depend on speed, as high as the record's usual force, is tried beside the base fit; a length
+    of slip also at several shares of the stroke. Beside a force that is no friction, a curved face or a wall, the rated
+    material is tried too: in the base fit friction stood for it, and may have ended far from its own.
     """
     bounds = {f.key: f for f in free}
     force = np.concatenate([run.force.ravel() for run in objective.fitted_runs])
@@ -192,7 +192,8 @@ def _several_starts(
     starts = [dict(values), {**values, **{k: v for k, v in flat.items() if k in values}}]
     for key in lengths:
         starts += [{**starts[1], key: share * stroke} for share in (0.03, 0.1, 0.3)]
-    starts.append({**values, **{f.key: f.start for f in free}})
+    if any(t.effect.port == "pad" for t in terms):
+        starts.append({**values, **{f.key: f.start for f in free}})
     for start in starts:
         start.update({k: float(np.clip(v, bounds[k].low, bounds[k].high)) for k, v in start.items() if k in bounds})
     tries = [solve(objective, s, free, most=6, enough=100.0) for s in starts]
