@@ -34,9 +34,9 @@ def test_the_plan_holds_every_kind_and_three_of_each_for_ten_pendulums() -> None
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    # springs and flat faces of other seeds are diagnosed in tests/recover and tests/unit/selection
+    # springs, flat faces and pendulums of other seeds are diagnosed in tests/recover, tests/unit/selection and unit/cli
     "kind",
-    [pytest.param(kind, marks=pytest.mark.long if kind in ("spring", "flat") else ()) for kind in KINDS],
+    [pytest.param(kind, marks=pytest.mark.long if kind != "rim" else ()) for kind in KINDS],
 )
 def test_a_bearing_is_named_as_what_it_is(tmp_path: Path, kind: str) -> None:
     truth = make_bearing(tmp_path / kind, kind, 2)

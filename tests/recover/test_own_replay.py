@@ -13,7 +13,7 @@ pytestmark = pytest.mark.slow
 @pytest.mark.parametrize(
     ("rig", "corner", "rate"),
     [
-        ("six_pads", 100.0, 500.0),
+        pytest.param("six_pads", 100.0, 500.0, marks=pytest.mark.long),
         ("three_pads", None, 2000.0),
         ("pendulum", 40.0, 100.0),
         *(pytest.param(rig, 100.0, 500.0, marks=pytest.mark.long) for rig in ("three_pads", "pendulum", "building")),

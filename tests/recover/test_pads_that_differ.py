@@ -11,6 +11,7 @@ from slipwise.model import base_model, use
 pytestmark = pytest.mark.slow
 
 
+@pytest.mark.long
 def test_six_pads_of_unlike_friction_are_told_one_by_one(tmp_path: Path) -> None:
     levels = dict(zip("BCDEF", (0.06, -0.04, 0.0, 0.08, -0.05), strict=True))
     spread = use("pad_spread", along=0.0, **{f"level[{pad}]": level for pad, level in levels.items()})

@@ -104,7 +104,7 @@ def test_a_wall_shows_by_how_much_the_zero_of_the_slip_is_off(tmp_path_factory) 
     assert 0.1 * offset == pytest.approx(more, rel=0.05)  # of a gauge of 100 mm
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_other_noise_of_the_gauges_leaves_the_names(tmp_path: Path) -> None:
     spring, found = draw_bearing("spring", 54301), []
     for seed in (1, 2):
