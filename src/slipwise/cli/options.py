@@ -51,11 +51,10 @@ def refuse_unnamed(allowed: list[str] | None, start: "sw.Model | None") -> None:
     Raises:
         InputError: a file that the model does not name.
     """
-    uses = start.uses if start is not None else ()
-    named = {str(use.effect.path.resolve()) for use in uses if use.effect.path != Path()}
+    named = {use.effect.path for use in start.uses} - {Path()} if start is not None else set[Path]()
     for path in allowed or []:
-        if str(Path(path).resolve()) not in named:
-            here = ", ".join(sorted(named)) or "none"
+        if Path(path).resolve() not in {one.resolve() for one in named}:
+            here = ", ".join(sorted(map(str, named))) or "none"
             raise InputError(
                 f"--effect {path}: the model to start from does not name it; effect files that it names: {here}; "
                 "`slipwise diagnose --effect` lets a file compete, `slipwise add` puts one into the model"

@@ -9,7 +9,22 @@ import typer
 
 import slipwise as sw
 
-Workers = Annotated[int | None, typer.Option(min=1, help="Processes; as many as there are cores when not given.")]
+
+def _possible(given: int | None) -> int | None:
+    """Return the number of processes as it was given.
+
+    Raises:
+        SettingError: fewer than one.
+    """
+    from slipwise.jobs.executors import checked_workers
+
+    checked_workers(given)
+    return given
+
+
+Workers = Annotated[
+    int | None, typer.Option(callback=_possible, help="Processes; as many as there are cores when not given.")
+]
 Cluster = Annotated[
     str | None,
     typer.Option(

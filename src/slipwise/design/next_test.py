@@ -115,11 +115,10 @@ def _ranked(found: Diagnosis, every: Contest, asked: Mapping[str, str], tell: Ca
         )
     ranked = sorted(out, key=lambda p: (bool(p.refused), bool(p.failed), -p.separation))
     most = max((p.separation for p in judged), default=np.inf)
-    surer = max((p.probability for p in judged), default=0.0)
-    doubt = "" if surer > chances[0] else "No motion could make anybody surer than the campaign does."
-    words = " ".join(filter(None, (doubt, every.words, _words(found, contest, most))))
     names = tuple(h.names for h in contest)
-    return NextTest(names, chances, tuple(ranked), words, found.sentence, found.corrections)
+    test = NextTest(names, chances, tuple(ranked), "", found.sentence, found.corrections)
+    doubt = "" if test.gain > 0.0 else "No motion could make anybody surer than the campaign does."
+    return replace(test, words=" ".join(filter(None, (doubt, every.words, _words(found, contest, most)))))
 
 
 def _refuse_prescribed(campaign: Campaign) -> None:

@@ -15,7 +15,6 @@ from slipwise.display import Drawn, Tabular
 from slipwise.effects import Effect, find_effect
 from slipwise.errors import InputError, SettingError
 from slipwise.estimation.base_fit import BaseFit
-from slipwise.estimation.least_squares import Solution
 from slipwise.evidence.residual_summary import ResidualSummary, get_error
 from slipwise.jobs.parallel import on_every_core, one_thread_algebra
 from slipwise.model import Model
@@ -28,9 +27,8 @@ from slipwise.selection.candidates import list_candidates
 from slipwise.selection.explained_alone import ExplainedAlone, explain_alone
 from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, polish, refit, refit_for_report
 from slipwise.selection.hypothesis_fit import make_fit
-from slipwise.selection.jacobian_memory import drop_jacobian
 from slipwise.selection.proposals import MOST_EFFECTS
-from slipwise.selection.search_state import Search
+from slipwise.selection.search_state import Search, take_fit
 from slipwise.selection.select import select_effects
 from slipwise.short_repr import short_repr
 
@@ -185,12 +183,8 @@ def _hypothesis_path(state: Search) -> list[Hypothesis]:
     last.pop(frozenset(t.label for t in state.best.terms), None)
     before = list(last.values())
     memory = state.base.solution.fit_memory
-
-    def refit(place: int) -> tuple[Solution, ResidualSummary]:
-        found = refit_for_report(before[place])  # what is replayed of a step is what its error is of
-        return drop_jacobian(found.solution), found.summary
-
-    fits = on_every_core(refit, len(before), memory=memory)
+    # what is replayed of a step is what its error is of
+    fits = on_every_core(lambda i: take_fit(refit_for_report(before[i]), keep=False), len(before), memory=memory)
     refitted = [
         replace(h, solution=solution, summary=summary) for h, (solution, summary) in zip(before, fits, strict=True)
     ]

@@ -92,8 +92,10 @@ class System:
 
 def find_system(runs: list[PreparedRun], usable: Sequence[Relation], specimen: Specimen) -> System:
     """Evaluate the relations, centred; those that hold at too few samples to be told from a constant stay out."""
-    usable = _told_by_enough(runs, usable, specimen)
     stacked = stack_rows(runs, usable, specimen, _rated(usable, specimen))
+    enough = [relation for relation in usable if _is_told(relation, stacked, len(runs))]
+    if len(enough) < len(usable):
+        usable, stacked = enough, stack_rows(runs, enough, specimen, _rated(enough, specimen))
     bare = System(runs, usable, specimen, stacked, {}, centred=True)
     single = [names[0] for names in group_gauges(runs[0].record).values() if len(names) == 1]
     sizes: dict[str, dict[str, float]] = {name: {} for name in stacked.residual}
@@ -103,10 +105,9 @@ def find_system(runs: list[PreparedRun], usable: Sequence[Relation], specimen: S
     return replace(bare, sizes=sizes)
 
 
-def _told_by_enough(runs: list[PreparedRun], usable: Sequence[Relation], specimen: Specimen) -> list[Relation]:
-    """Return the relations with more rows than are taken up by constants, a scale and the mean of every run."""
-    rows = {n: len(of) for n, of in stack_rows(runs, usable, specimen, _rated(usable, specimen)).residual.items()}
-    return [relation for relation in usable if rows.get(relation.name, 0) > len(relation.terms) + 1 + len(runs)]
+def _is_told(relation: Relation, stacked: Stack, runs: int) -> bool:
+    """Return whether a relation has more rows than its constants, a scale and the mean of every run take up."""
+    return len(stacked.residual.get(relation.name, ())) > len(relation.terms) + 1 + runs
 
 
 def divide_channels(runs: Sequence[PreparedRun], names: Sequence[str], factor: float) -> list[PreparedRun]:

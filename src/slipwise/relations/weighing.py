@@ -25,6 +25,7 @@ from slipwise.relations.pad_stages import (
     compute_logged_forces,
     get_logger_filter,
     is_fault_of_friction,
+    is_reversing,
 )
 from slipwise.relations.parameters import build_fitted_model
 from slipwise.relations.setting import Weighing
@@ -58,7 +59,7 @@ def weigh(evaluation: Evaluation) -> Weighing:
     for forces in (plain, slower, faster):  # a delayed gauge shows its reversals, and their noise, later too
         for i, run in enumerate(runs):
             forces[i] = forces[i] + apply_on_force(faults, values, run, forces[i])[1]
-    gradual = any(term.effect.reverses for term in evaluation.terms)
+    gradual = any(is_reversing(term) for term in evaluation.terms)
     reversal = [
         compute_reversal_noise(*each, gradual=gradual) for each in zip(runs, plain, slower, faster, strict=True)
     ]

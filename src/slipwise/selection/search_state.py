@@ -93,21 +93,21 @@ def try_all(
     asked = sorted(asked, key=lambda a: -sum(len(t.effect.parameters) for t in a[0]))
     # of a long campaign only what is fitted to the end has slopes: many at once would fill the memory
     keep, takes = len(asked) * size_of(state.base.solution) <= ROOM, state.base.solution.fit_memory
-    fits = on_every_core(lambda i: _fit(refit(state.base, *asked[i], before), keep=keep), len(asked), memory=takes)
+    fits = on_every_core(lambda i: take_fit(refit(state.base, *asked[i], before), keep=keep), len(asked), memory=takes)
     found = [Hypothesis(tuple(a[0]), objective.adding(*a[0]), *fit) for a, fit in zip(asked, fits, strict=True)]
     found.sort(key=lambda h: -compute_score(origin, h.summary))
     best: dict[tuple[str, ...], int] = {}
     for place, h in enumerate(found):
         best.setdefault(h.names, place)
     ended = list(best.values())[:_POLISHED]
-    fits = on_every_core(lambda i: _fit(polish(found[ended[i]])), len(ended), memory=takes)
+    fits = on_every_core(lambda i: take_fit(polish(found[ended[i]])), len(ended), memory=takes)
     for place, fit in zip(ended, fits, strict=True):
         found[place] = Hypothesis(found[place].terms, found[place].objective, *fit)
     tried = lightened([*state.tried, *found], lambda h: compute_score(origin, h.summary))
     return replace(state, tried=tried), found
 
 
-def _fit(found: Hypothesis, *, keep: bool = True) -> tuple[Solution, ResidualSummary]:
+def take_fit(found: Hypothesis, *, keep: bool = True) -> tuple[Solution, ResidualSummary]:
     """Return a hypothesis without its terms, whose functions cannot be sent from one process to another."""
     return found.solution if keep else drop_jacobian(found.solution), found.summary
 

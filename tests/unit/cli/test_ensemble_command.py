@@ -41,7 +41,7 @@ def test_an_ensemble_leaves_members_and_tables(slipwise, tmp_path):
         (("--sampling", "halton"), "latin"),
         (("--limit", "slip=3t"), "wrong dimension"),
         (("--rig", "bridg1"), "bridge1"),
-        (("--workers", "0"), "--workers"),
+        (("--workers", "0"), "0 workers"),
         ((SINE,), "given twice"),
     ],
 )

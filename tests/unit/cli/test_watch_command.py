@@ -15,9 +15,12 @@ from unit.campaign.slider import HEADER, slider, text
 
 def watching(folder: Path) -> subprocess.Popen:
     command = [sys.executable, "-m", "slipwise", "watch", str(folder), "--out", str(folder / "out")]
-    # what runs in the background of a shell ignores Ctrl-C, and so would its children
-    deaf = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)}
-    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **deaf)
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, preexec_fn=_hearing)
+
+
+def _hearing() -> None:
+    """Let Ctrl-C end the child: what runs in the background of a shell ignores it, and so would its children."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def steps_when(folder: Path, true, process: subprocess.Popen) -> list[dict]:
