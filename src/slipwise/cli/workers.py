@@ -16,9 +16,7 @@ def _possible(given: int | None) -> int | None:
     Raises:
         SettingError: fewer than one.
     """
-    from slipwise.jobs.executors import checked_workers
-
-    checked_workers(given)
+    sw.executors.checked_workers(given)
     return given
 
 
