@@ -7,7 +7,7 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import counting, out_folder, print_json, say, say_next
-from slipwise.cli.options import Allowed, Figures, Json, Trusted
+from slipwise.cli.options import Allowed, Figures, Json, Trusted, refuse_unnamed
 from slipwise.cli.workers import Cluster, Workers, chosen_executor
 
 
@@ -65,6 +65,7 @@ def consequence(
 
     path = Path(model)
     given = sw.load_model(path, trust=trust or effect or ()) if path.suffix == ".toml" else sw.base_model(model)
+    refuse_unnamed(effect, given)
     folder = out_folder(out)
     with chosen_executor(cluster) as executor, counting("replays") as tell:
         found = sw.consequence(

@@ -7,7 +7,7 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import print_json, say, say_next, steps
-from slipwise.cli.options import Allowed, Json, Trusted
+from slipwise.cli.options import Allowed, Json, Trusted, refuse_unnamed
 from slipwise.errors import SettingError, unknown_name
 
 PROGRAMS = {"opensees": Path("out/export/rig.py"), "sap2000": Path("out/export/links.csv")}
@@ -44,6 +44,7 @@ def export(
     if program not in PROGRAMS:
         raise unknown_name("program", program, PROGRAMS)
     wanted = _model(model, law, trust, effect)
+    refuse_unnamed(effect, wanted)
     shaking, path = (sw.load_motion(motion) if motion else None), out or PROGRAMS[program]
     if program == "sap2000":
         _links(wanted, campaign, shaking, path, json)

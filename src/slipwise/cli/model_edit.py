@@ -1,6 +1,6 @@
 """`slipwise add` and `slipwise remove`: edit model.toml, refit, and print the error before and after."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from shlex import quote
 from typing import Annotated
@@ -10,7 +10,7 @@ from rich.console import Console
 
 import slipwise as sw
 from slipwise.cli.console import OUT, say, say_next, steps
-from slipwise.cli.options import Allowed, Trusted
+from slipwise.cli.options import Allowed, Trusted, refuse_unnamed
 
 Folder = Annotated[Path, typer.Option("--campaign", help="Folder with campaign.toml; model.toml is kept there too.")]
 
@@ -27,7 +27,7 @@ def add(
 
     Example: `slipwise add run_in --campaign campaigns/march`
     """
-    _change(sw.add, name, campaign, trust or effect or ())
+    _change(sw.add, name, campaign, trust, effect)
 
 
 def remove(
@@ -42,12 +42,15 @@ def remove(
 
     Example: `slipwise remove run_in --campaign campaigns/march`
     """
-    _change(sw.remove, name, campaign, trust or effect or ())
+    _change(sw.remove, name, campaign, trust, effect)
 
 
-def _change(change: "Callable[..., sw.ModelChange]", name: str, campaign: Path, trust: bool | Sequence[str]) -> None:
-    session = sw.Session(campaign, trust=trust, resume=False)
+def _change(
+    change: "Callable[..., sw.ModelChange]", name: str, campaign: Path, trust: bool, allowed: list[str] | None
+) -> None:
+    session = sw.Session(campaign, trust=trust or allowed or (), resume=False)
     try:
+        refuse_unnamed(allowed, session.model)
         with steps() as tell:
             changed = change(name, session, progress=tell)
         tell_change(changed, held_out=bool(session.campaign.with_role("holdout")))

@@ -24,6 +24,7 @@ from slipwise.campaign import Campaign, Logger
 from slipwise.campaign.invalid_samples import InvalidSamples
 from slipwise.errors import InputError
 from slipwise.estimation.base_fit import fit_roughly
+from slipwise.estimation.intervals import compute_halfwidth
 from slipwise.jobs.parallel import on_every_core
 from slipwise.record import Record
 from slipwise.short_repr import short_repr
@@ -165,7 +166,7 @@ def estimate_logger(campaign: Campaign) -> LoggerEstimate:
     level, slope, _, noise, _ = best.numbers
     if np.exp(level - slope * np.log(best.corner / 50.0)) < _ABOVE * np.exp(noise):
         return _unknown(f"noise hides the bend near {best.corner:.0f} Hz", likeliest, causal)
-    spread = 1.96 * best.error
+    spread = compute_halfwidth(best.error)
     if spread > _WIDEST:
         return _unknown(f"the bend near {best.corner:.0f} Hz is uncertain by {spread:.0%}", likeliest, causal)
     alike = [shape for shape in shapes if shape.cost < best.cost + 4.0 and shape is not best]

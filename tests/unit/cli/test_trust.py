@@ -46,6 +46,26 @@ def test_no_command_runs_a_file_that_only_the_model_names(slipwise, folder, tmp_
     assert not (folder / "CODE_RAN").exists()
 
 
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("compare", "CAMPAIGN", "--out", "OUT"),
+        ("add", "run_in", "--campaign", "CAMPAIGN"),
+        ("remove", "run_in", "--campaign", "CAMPAIGN"),
+        ("export", "opensees", "bridge1", "--motion", "sine:2Hz,0.3g", "--out", "OUT"),
+        ("export", "opensees", "MODEL", "--motion", "sine:2Hz,0.3g", "--out", "OUT"),
+        ("consequence", "MODEL", "--out", "OUT"),
+    ],
+    ids=" ".join,
+)
+def test_a_file_to_run_that_the_model_does_not_name_is_refused(slipwise, folder, tmp_path, command):
+    (folder / "model.toml").write_text('rig = "bridge1"\n[[effect]]\nname = "run_in"\n')
+    places = {"CAMPAIGN": folder, "MODEL": folder / "model.toml", "OUT": tmp_path / "out"}
+    code, _, err = slipwise(*(places.get(word, word) for word in command), "--effect", folder / "mine.py")
+    assert code == 2 and "the model to start from does not name it" in err
+    assert not (folder / "CODE_RAN").exists() and not (tmp_path / "out").exists()
+
+
 def test_the_flags_that_the_refusal_names_let_it_run(slipwise, folder, tmp_path):
     plain = ("compare", folder, "--no-system", "--no-recording", "--out", tmp_path / "out")
     _, _, err = slipwise(*plain)
