@@ -67,6 +67,10 @@ _SPELLINGS: dict[str, str] = {
     "KG": "kg", "Kg": "kg", "MPA": "MPa", "Mpa": "MPa", "KPA": "kPa", "Kpa": "kPa", "PSI": "psi", "DEG": "deg",
     "C": "degC", "F": "degF", "-": "1", "": "1", "%": "percent",
 }  # fmt: skip
+#: What stands between two units: spaces, or the point of ISO 80000-1, as in N.m and m.s-2.
+_BETWEEN = re.compile(r"(?<=[A-Za-z0-9]) +(?=[A-Za-z])|(?<=[A-Za-z])\.(?=[A-Za-z])|(?<=[A-Za-z-][0-9])\.(?=[A-Za-z])")
+#: A moment without a sign between force and lever: kNm. Pint knows none, or takes the N for a number of things.
+_MOMENT = re.compile(r"([kM]?N)([cm]?m)")
 _TON = re.compile(r"\btons?\b", re.IGNORECASE)
 #: A name of letters, perhaps with a power behind it: mm2, s-2, s^-2.
 _NAMED = re.compile(r"([A-Za-z_°'%]+)(?:(?:\^|\*\*)?(-?\d+))?")
@@ -88,9 +92,11 @@ def _clean(text: str) -> str:
 
     def named(found: re.Match[str]) -> str:
         name, power = found.groups()
+        if power is None and (moment := _MOMENT.fullmatch(name)):
+            return f"({moment[1]}*{moment[2]})"
         return _SPELLINGS.get(name, name) + (f"**{power}" if power else "")
 
-    powers = _NAMED.sub(named, re.sub(r"(?<=[A-Za-z0-9]) +(?=[A-Za-z])", "*", text))
+    powers = _NAMED.sub(named, _BETWEEN.sub("*", text))
     return _WHOLE.sub(lambda found: f"{found[0]}.0", powers)
 
 

@@ -108,7 +108,7 @@ def were_run(folder: Path) -> list[str]:
 
 def test_a_twin_tells_that_it_was_run(folder: Path) -> None:
     subprocess.run([sys.executable, "-c", "import json"], cwd=folder, capture_output=True)
-    assert were_run(folder) == ["json.py.was_run"]
+    assert "json.py.was_run" in were_run(folder)
 
 
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="looks for processes in /proc")

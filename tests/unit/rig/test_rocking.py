@@ -41,7 +41,7 @@ def test_a_moment_of_pitch_shows_in_both_loads_as_an_integration_says():
     b = np.concatenate([np.zeros(2), inverse[:, 1]])[:, None]
     c = np.hstack([stiffness, slow * stiffness])
     own = lsim(StateSpace(a, b, c, np.zeros((2, 1))), moment, time)[1]
-    squares = np.linalg.eigvals(inverse @ stiffness)
+    squares = np.linalg.eigvals(inverse @ stiffness).real
     modes = rocking_modes(specimen)
     pitch = next(w for w in np.sqrt(squares) if np.isclose(np.sqrt(squares), modes[0].ratio * w).any())
     found = np.zeros_like(own)
