@@ -11,7 +11,7 @@ from session_campaign import MISSING
 expect = pytest.importorskip("playwright.sync_api").expect
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.skipif(not hasattr(resource, "prlimit"), reason="only Linux limits the files of a process that runs")
 def test_a_fit_that_ends_on_a_full_disk_is_told_and_kept_when_there_is_room_again(browser, server):
     page = opened(browser, server)

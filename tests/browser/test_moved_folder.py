@@ -10,7 +10,7 @@ from workbench_server import Server
 expect = pytest.importorskip("playwright.sync_api").expect
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_folder_that_is_moved_is_told_until_it_is_back_and_nothing_is_written_meanwhile(browser, server):
     page = opened(browser, server)
     fitted(page)

@@ -83,7 +83,7 @@ def test_slip_of_a_symmetric_motion_is_that_of_an_integration_from_event_to_even
     assert abs(walk) < 1e-4
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_fifty_symmetric_motions_neither_err_nor_walk():
     found = [(case, *compared(*case, cycles=30)[:2]) for case in drawn(50, seed=2026)]
     assert [f for f in found if abs(f[1]) > 0.005] == []

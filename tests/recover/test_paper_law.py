@@ -12,6 +12,7 @@ from slipwise_benchmarks.in_memory import as_campaign
 pytestmark = pytest.mark.slow
 
 
+@pytest.mark.long
 def test_coulomb_lacks_the_real_area_of_contact_and_the_shear_rate():
     campaign = as_campaign(build_campaign(57, effects=(), rig="bridge1"))
     fewer = replace(campaign, runs=(campaign.runs[0], campaign.runs[2], campaign.runs[4]))

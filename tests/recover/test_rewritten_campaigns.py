@@ -94,6 +94,7 @@ def test_a_pendulum_that_is_mirrored_leaves_the_same_errors(tmp_path_factory) ->
     assert (mirrored.base_error, mirrored.final_error) == pytest.approx((found.base_error, found.final_error), rel=1e-3)
 
 
+@pytest.mark.long
 def test_a_wall_shows_by_how_much_the_zero_of_the_slip_is_off(tmp_path_factory) -> None:
     campaign, _ = bearing(tmp_path_factory.getbasetemp() / "written_spring", "spring", 54301)
     shifted = with_another_zero_of_slip(campaign)

@@ -51,7 +51,7 @@ def test_a_command_without_a_home_works_and_writes_nothing_where_it_is_run(
     assert {path.name for path in tmp_path.iterdir()} == {"a.png", "temporary"}
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_all_that_compiles_works_without_a_home_and_says_at_most_one_line_of_the_cache(
     campaign: Path, tmp_path: Path
 ) -> None:
