@@ -94,7 +94,8 @@ def save_model(model: Model, path: Path | str) -> None:
         SettingError: the file is of another rig.
     """
     path = Path(path)
-    rig = model.specimen.name if model.specimen.name in RIGS else str(model.specimen.path)
+    name = model.specimen.name  # a rig of one's own may have the name of one of the package
+    rig = name if name in RIGS and load_specimen(name).path == model.specimen.path else str(model.specimen.path)
     document = _read(path) if path.is_file() else tomlkit.parse(f"{_HEAD}rig = {tomlkit.item(rig).as_string()}\n")
     rated = load_specimen(str(document["rig"]), path.parent)
     if rated.path != model.specimen.path:

@@ -1,5 +1,6 @@
 """model.toml: read by people, edited by hand and by commands, never losing a comment."""
 
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from slipwise.effects import catalogue
 from slipwise.errors import InputError, SettingError, UnitError, UnknownNameError
 from slipwise.model import EffectUse, base_model, use
 from slipwise.model.file import load_model, save_model
+from slipwise.rig import load_specimen
 
 BY_HAND = """# our rig after the repair of May
 rig = "bridge1"     # with the new pads
@@ -56,6 +58,14 @@ def test_a_new_file_of_the_base_model_is_that_model_to_the_last_bit(tmp_path: Pa
     for rig in ("bridge1", "bridge2", "block", "pad"):
         save_model(base_model(rig), tmp_path / f"{rig}.toml")
         assert load_model(tmp_path / f"{rig}.toml") == base_model(rig)
+
+
+def test_a_rig_of_ones_own_that_has_the_name_of_one_of_the_package_is_written_as_ones_own(tmp_path: Path) -> None:
+    own = shutil.copy(load_specimen("building").path, tmp_path / "building.xml")
+    model = base_model(own, ())
+    assert model.specimen.name == "building"
+    save_model(model, tmp_path / "model.toml")
+    assert load_model(tmp_path / "model.toml").specimen.path == own
 
 
 def test_adding_and_removing_an_effect_leaves_the_file_as_it_was(path: Path) -> None:
