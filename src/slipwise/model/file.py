@@ -94,11 +94,10 @@ def save_model(model: Model, path: Path | str) -> None:
         SettingError: the file is of another rig.
     """
     path = Path(path)
-    name = model.specimen.name  # a rig of one's own may have the name of one of the package
-    rig = name if name in RIGS and load_specimen(name).path == model.specimen.path else str(model.specimen.path)
+    rig = _name_rig(model.specimen, path.parent)
     document = _read(path) if path.is_file() else tomlkit.parse(f"{_HEAD}rig = {tomlkit.item(rig).as_string()}\n")
     rated = load_specimen(str(document["rig"]), path.parent)
-    if rated.path != model.specimen.path:
+    if rated.path.resolve() != model.specimen.path.resolve():
         raise SettingError(f"{path} is a model of {document['rig']!r}, not of {rig!r}; write to another file")
     unused = model.unused_values
     known = {n: value for n, value in known_better(model.specimen, rated).items() if n not in unused}
@@ -117,6 +116,15 @@ def save_model(model: Model, path: Path | str) -> None:
     if not model.uses:
         document.pop("effect", None)  # an empty list would be no table of [[effect]]
     write_text(path, tomlkit.dumps(document))
+
+
+def _name_rig(specimen: Specimen, folder: Path) -> str:
+    """Return what a model.toml in a folder calls a rig: a name of the package, or a file, seen from there."""
+    # a rig of one's own may have the name of one of the package
+    if specimen.name in RIGS and load_specimen(specimen.name).path == specimen.path:
+        return specimen.name
+    own, there = specimen.path.resolve(), folder.resolve()
+    return (own.relative_to(there) if own.is_relative_to(there) else own).as_posix()
 
 
 def _read(path: Path) -> tomlkit.TOMLDocument:

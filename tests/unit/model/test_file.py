@@ -68,6 +68,17 @@ def test_a_rig_of_ones_own_that_has_the_name_of_one_of_the_package_is_written_as
     assert load_model(tmp_path / "model.toml").specimen.path == own
 
 
+def test_a_rig_that_is_named_from_elsewhere_is_written_as_seen_from_the_model(tmp_path: Path, monkeypatch) -> None:
+    (tmp_path / "march").mkdir()
+    shutil.copy(load_specimen("building").path, tmp_path / "march" / "tower.xml")
+    monkeypatch.chdir(tmp_path)
+    model = base_model("march/tower.xml", ())
+    for _ in range(2):  # a new file, and one that is there
+        save_model(model, "march/model.toml")
+    assert 'rig = "tower.xml"' in (tmp_path / "march" / "model.toml").read_text()
+    assert load_model("march/model.toml").specimen.pads == model.specimen.pads
+
+
 def test_adding_and_removing_an_effect_leaves_the_file_as_it_was(path: Path) -> None:
     model = load_model(path).adding(use("run_in", rise=0.25, distance="150 mm"))
     save_model(model, path)
