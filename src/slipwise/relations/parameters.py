@@ -1,7 +1,7 @@
 """What a fit may change: numbers of the rig, and parameters of effects, each with a key, a start and bounds."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from slipwise.effects import Effect
 from slipwise.model import EffectUse, Model, use_of
@@ -94,7 +94,7 @@ class Term:
         targets: channels; ("",) for an effect that needs none.
         group: name for several targets together, e.g. "pad_*_Fx"; the target itself for one.
         own: what pads have of their own, e.g. "strength[A]".
-        unused: values for all pads that no pad takes, because each has its own: nothing that a fit could find [SI].
+        unused: values for all pads that no fit finds: held ones, and those of which each pad has its own [SI].
     """
 
     effect: Effect
@@ -119,7 +119,7 @@ class Term:
         numbers = {**self.unused, **{p.name: values[key] for key, p in self.parameters.items()}}
         effect = self.effect.original or self.effect
         numbers = {**{n: v for n, v in effect.neutral().items() if n not in numbers}, **numbers}
-        return [use_of(effect, numbers, target) for target in self.targets]
+        return [replace(use_of(effect, numbers, target), held=tuple(self.unused)) for target in self.targets]
 
     def free(self, start: Mapping[str, float]) -> list[Free]:
         """Return its parameters as free numbers.

@@ -116,8 +116,7 @@ class Evaluator:
     def with_slopes(self, state: SessionState) -> BaseFit:
         """Return a state that was fitted as a fit with its slopes, for what is held against it."""
         fit = self.as_fit(state)
-        fitted = [f for f in fit.free if f.key in state.values]  # a form that no fit changes has no slope
-        return replace(fit, solution=solve(fit.objective, dict(state.values), fitted, most=1))
+        return replace(fit, solution=solve(fit.objective, dict(state.values), list(fit.free), most=1))
 
 
 def evaluator(campaign: Campaign, model: Model | None) -> tuple[Evaluator, SessionState]:

@@ -19,6 +19,7 @@ from slipwise.relations.untold_forces import list_untold_forces
 from slipwise.rig import Specimen, load_specimen
 from slipwise.rig.places import Buffer
 from slipwise.selection.candidates import NOTHING_SLIDES, list_candidates
+from slipwise.session.evaluation import evaluator
 from slipwise.simulation.replay import replay
 from slipwise_benchmarks import build_campaign
 from slipwise_benchmarks.in_memory import as_campaign
@@ -154,6 +155,14 @@ def test_the_hysteresis_that_a_linear_layer_lacks_is_found_and_predicts_a_motion
     )
     assert before.model_left > 0.1 and after.model_left < 0.4 * before.model_left
     assert better.solution.values["rig.buffer_stiffness"] == pytest.approx(sum(isolated.buffer_stiffness), rel=0.05)
+
+
+def test_a_damper_that_is_to_stay_linear_stays_so_in_a_session(lead_rubber: Campaign) -> None:
+    """Else an effect cannot be added: the session has no value of a number that no fit has changed."""
+    ready, opened = evaluator(lead_rubber, None)
+    assert ready.model_of(opened).uses[0].held == ("exponent", "relaxation")
+    assert {free.key for free in ready.free(opened)} == opened.values.keys()
+    assert set(ready.with_slopes(opened).solution.values) == opened.values.keys()
 
 
 def test_the_layer_is_described_by_period_damping_and_energy(isolated: Specimen) -> None:
