@@ -123,8 +123,13 @@ def _name_rig(specimen: Specimen, folder: Path) -> str:
     # a rig of one's own may have the name of one of the package
     if specimen.name in RIGS and load_specimen(specimen.name).path == specimen.path:
         return specimen.name
-    own, there = specimen.path.resolve(), folder.resolve()
-    return (own.relative_to(there) if own.is_relative_to(there) else own).as_posix()
+    return _as_seen_from(folder, specimen.path)
+
+
+def _as_seen_from(folder: Path, file: Path) -> str:
+    """Return a file's path for a text that lies in a folder: relative where it is inside, whole where it is not."""
+    there, whole = folder.resolve(), file.resolve()
+    return (whole.relative_to(there) if whole.is_relative_to(there) else whole).as_posix()
 
 
 def _read(path: Path) -> tomlkit.TOMLDocument:
@@ -166,8 +171,7 @@ def _file_of(effect: Effect, path: Path) -> str:
     """Return a user's effect file as seen from the model file; nothing for an effect of the catalogue."""
     if effect.name in catalogue():
         return ""
-    inside = effect.path.is_relative_to(path.parent.resolve())
-    return (effect.path.relative_to(path.parent.resolve()) if inside else effect.path).as_posix()
+    return _as_seen_from(path.parent, effect.path)
 
 
 def _append(document: tomlkit.TOMLDocument, wanted: EffectUse, file: str) -> None:
