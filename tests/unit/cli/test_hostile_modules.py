@@ -107,8 +107,10 @@ def were_run(folder: Path) -> list[str]:
 
 
 def test_a_twin_tells_that_it_was_run(folder: Path) -> None:
-    subprocess.run([sys.executable, "-c", "import json"], cwd=folder, capture_output=True)
-    assert "json.py.was_run" in were_run(folder)
+    # the error is kept from being printed, for which Python 3.13 would import more twins
+    quiet = "try:\n    import json\nexcept ImportError:\n    pass"
+    subprocess.run([sys.executable, "-c", quiet], cwd=folder, capture_output=True)
+    assert were_run(folder) == ["json.py.was_run"]
 
 
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="looks for processes in /proc")
