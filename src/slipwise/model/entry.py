@@ -3,25 +3,28 @@
 [[effect]]
 name = "shear_rate"
 strength = "1.379 MPa"
+held = ["strength"]              # what no fit changes
 [effect.pads]                    # what a pad has of its own
 A = { strength = "1.1 MPa" }
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
 import tomlkit
 from tomlkit.items import InlineTable, Table
 
-from slipwise.effects import Trust, check_trusted, find_effect, holding, load_effect
-from slipwise.errors import InputError
+from slipwise.effects import Effect, Trust, check_trusted, find_effect, holding, load_effect
+from slipwise.errors import InputError, unknown_name
 from slipwise.model import EffectUse, use
 from slipwise.params import Parameter, same_number
 from slipwise.units import quantity
 
 _PADS = "pads"
-_KEYS = ("name", "file", "target", _PADS)
+_HELD = "held"
+_KEYS = ("name", "file", "target", _HELD, _PADS)
 _Part = Table | InlineTable
 
 
@@ -35,7 +38,8 @@ def entry_use(entry: Table, path: Path, trust: Trust, *, slider: bool) -> Effect
         slider: whether the rig is one slider: its sizes are of no reference rig.
 
     Raises:
-        InputError: neither a name nor a file, values of pads that are no table, or a file that is not trusted.
+        InputError: neither a name nor a file, values of pads that are no table, what is held is no list of names, or a
+            file that is not trusted.
         UnknownNameError: an effect or a parameter that does not exist.
         UnitError: a value without a unit or of the wrong dimension.
         SettingError: a value out of bounds, or of a single pad where the effect has none.
@@ -53,7 +57,20 @@ def entry_use(entry: Table, path: Path, trust: Trust, *, slider: bool) -> Effect
     given = {name: (effect.parameter(name), value) for name, value in values.items()}
     si = {name: p.snapped(quantity(value, p.unit, f"{where}, {name}")) for name, (p, value) in given.items()}
     known = holding(effect, {**effect.typical(), **si}) if slider else effect
-    return use(known, str(entry.get("target", "")), **si)
+    return replace(use(known, str(entry.get("target", "")), **si), held=_held_in(entry, effect, where))
+
+
+def _held_in(entry: Table, effect: Effect, where: str) -> tuple[str, ...]:
+    """Return the names of the parameters that no fit is to change."""
+    given = entry.get(_HELD, [])
+    if not isinstance(given, list) or not all(isinstance(name, str) for name in given):
+        raise InputError(
+            f'{where}: parameters that no fit changes are written as held = ["exponent"]; held is {given!r}'
+        )
+    for name in given:
+        if name not in effect.parameter_names:
+            raise unknown_name(f"parameter of {effect.name}", name, effect.parameter_names, f"{where} holds it.")
+    return tuple(str(name) for name in given)
 
 
 def _of_pads(entry: Table, where: str) -> dict[str, Any]:
@@ -98,6 +115,7 @@ def new_entry(wanted: EffectUse, file: str) -> Table:
         bounds = [parameter.shown(bound, short=True).partition(" ")[0] for bound in (parameter.low, parameter.high)]
         value = tomlkit.item(parameter.written(wanted.values[parameter.name]))
         entry.add(parameter.name, value.comment(f"{parameter.meaning}; {' to '.join(bounds)}"))
+    _write_held(entry, wanted)
     _write_pads(entry, wanted)
     return entry
 
@@ -108,7 +126,16 @@ def write_values(entry: Table, wanted: EffectUse) -> None:
         value = wanted.values[parameter.name]
         if parameter.name in entry or value != parameter.typical:
             _write(entry, parameter, value)
+    _write_held(entry, wanted)
     _write_pads(entry, wanted)
+
+
+def _write_held(entry: Table, wanted: EffectUse) -> None:
+    """Put the names of what no fit changes into an entry, or take them out."""
+    if not wanted.held:
+        entry.pop(_HELD, None)
+    elif set(cast(list[str], entry.get(_HELD, []))) != set(wanted.held):
+        entry[_HELD] = list(wanted.held)
 
 
 def _write_pads(entry: Table, wanted: EffectUse) -> None:

@@ -8,6 +8,7 @@
     [[effect]]
     name = "shear_rate"
     strength = "1.379 MPa"          # a parameter that is not given takes its typical value
+    held = ["rate"]                 # parameters that no fit changes
     [effect.pads]                   # what a pad has of its own, where an effect acts on single pads
     A = { strength = "1.1 MPa" }
 

@@ -236,3 +236,33 @@ def test_what_no_single_pad_can_have_is_refused(what: str, tmp_path: Path) -> No
     file.write_text(OF_PADS.replace(old, new))
     with pytest.raises(error, match=words):
         load_model(file)
+
+
+HELD = 'rate = "0.197 s/cm"   # s/cm, not s/mm!\nheld = ["slow", "rate"]   # of our tribometer'
+
+
+def test_what_is_held_stays_held_with_its_comment_and_can_be_let_go(path: Path) -> None:
+    path.write_text(BY_HAND.replace('rate = "0.197 s/cm"   # s/cm, not s/mm!', HELD))
+    model = load_model(path)
+    assert model["shear_rate"].held == ("slow", "rate")
+    save_model(model.setting("shear_rate", strength="1.2 MPa"), path)
+    assert "of our tribometer" in comments(path.read_text())
+    assert load_model(path)["shear_rate"].held == ("slow", "rate")
+    free = replace(model, uses=tuple(replace(u, held=()) for u in model.uses))
+    save_model(free, path)
+    assert "held" not in path.read_text() and load_model(path) == free
+
+
+@pytest.mark.parametrize(
+    ("held", "error", "words"),
+    [
+        ('"rate"', InputError, r'written as held = \["exponent"\]; held is \'rate\''),
+        ("[3]", InputError, r"held is \[3\]"),
+        ('["rat"]', UnknownNameError, "no parameter of shear_rate is called 'rat': did you mean rate"),
+        ('["rate[A]"]', UnknownNameError, "no parameter of shear_rate is called 'rate"),
+    ],
+)
+def test_what_cannot_be_held_is_refused(held: str, error: type[Exception], words: str, path: Path) -> None:
+    path.write_text(BY_HAND.replace("rate = ", f"held = {held}\nrate = "))
+    with pytest.raises(error, match=words):
+        load_model(path)

@@ -9,6 +9,7 @@ import pytest
 from four_pads import describe_four_pads
 from slipwise.errors import InputError, SettingError, UnknownNameError
 from slipwise.model import base_model, use
+from slipwise.model.file import load_model, save_model
 from slipwise.rig import Specimen, load_specimen
 from slipwise.rig.mjcf.writer import mjcf_text
 from slipwise.rig.places import Buffer
@@ -54,6 +55,8 @@ def test_a_law_of_friction_is_refused_and_damped_springs_are_the_base_model(tmp_
     assert [entry.effect.name for entry in model.uses] == ["buffer_damping"]
     assert model.uses[0].values["exponent"] == 1.0
     assert set(model.uses[0].unused(specimen.pads)) == {"exponent", "relaxation"}
+    save_model(model, tmp_path / "model.toml")
+    assert load_model(tmp_path / "model.toml").uses[0].held == model.uses[0].held
 
 
 def test_a_replay_has_no_friction_and_swings_as_a_spring_and_a_dashpot_do(tmp_path: Path) -> None:
