@@ -1,4 +1,7 @@
-"""Measured and predicted side by side, of one balance in one run: what a curve, a loop or a residual is drawn of."""
+"""Measured and predicted side by side, of one balance in one run: what a curve, a loop or a residual is drawn of.
+
+Where no pad's friction was measured, "pads" is what all bearings carry together, as the inertia above them says.
+"""
 
 from dataclasses import dataclass
 
@@ -7,12 +10,15 @@ import numpy as np
 from slipwise.arrays import Array
 from slipwise.comparison.component_level import NAMES
 from slipwise.estimation.objective import Objective
+from slipwise.relations.base_shear import pair_forces
 from slipwise.relations.girder_stages import compute_balance_sides
 from slipwise.relations.table import Residuals
 from slipwise.rig.load_basis import WARPS
 from slipwise.session.state import SessionState
 from slipwise.short_repr import short_repr
 
+#: The column of "pads" where no pad's friction was measured.
+ALL_BEARINGS = "all bearings"
 #: Balances whose two sides are channels; of the others only the residual has a meaning, in floors.
 _TWO_SIDED = ("girder", "heave", "pitch", "roll", *WARPS, "storeys")
 
@@ -25,7 +31,7 @@ class Series:
     Attributes:
         relation: "pads", "girder" ...
         run: name.
-        labels: of the columns: pads, or one column.
+        labels: of the columns: pads, or one column; `ALL_BEARINGS` where no pad's friction was measured.
         unit: SI unit, or "1" for a residual in floors.
         time: (n,) [s].
         measured: (n, c).
@@ -56,12 +62,14 @@ def series_of(objective: Objective, state: SessionState, residuals: Residuals, p
         state: whose numbers.
         residuals: of the state.
         place: of the run.
-        relation: one of `objective.relations`.
+        relation: one of `objective.relations`, or "pads".
     """
     run = objective.run(place)
-    if relation == "pads" and relation not in objective.relations:  # what the law says of each pad is all there is
-        unknown, nobody = np.full_like(residuals.pad_forces[place], np.nan), tuple(0.0 for _ in run.pads)
-        return Series(relation, run.name, run.pads, "N", run.time, unknown, residuals.pad_forces[place], nobody)
+    if relation == "pads" and not run.forces_measured:
+        measured, predicted = pair_forces(run, residuals, place)
+        noise = residuals.block("girder", place).noise * run.states.specimen.mass
+        level = float(np.sqrt(np.mean(noise**2)))
+        return Series(relation, run.name, (ALL_BEARINGS,), "N", run.time, measured, predicted, (level,))
     of = residuals.block(relation, place)
     part, noise = of.columns, of.noise.reshape(len(run.time), -1)
     floor = tuple(float(np.sqrt(np.mean(column**2))) for column in noise.T)

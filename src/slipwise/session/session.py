@@ -144,7 +144,8 @@ class Session(Drawn, Tabular):
 
         Args:
             run: name of the run.
-            relation: name of the balance.
+            relation: name of the balance; "pads" is what all bearings carry together where no pad's friction was
+                measured.
             state: of this session; the model as it is now if not given.
 
         Raises:
@@ -152,11 +153,10 @@ class Session(Drawn, Tabular):
         """
         state = state or self.state
         objective = self.ready.objective(state)
-        names = objective.run_names
-        if run not in names or relation not in objective.relations:
+        names, relations = objective.run_names, list(dict.fromkeys(["pads", *objective.relations]))
+        if run not in names or relation not in relations:
             raise SettingError(
-                f"no balance {relation!r} of run {run!r}; runs: {', '.join(names)}; "
-                f"balances: {', '.join(objective.relations)}"
+                f"no balance {relation!r} of run {run!r}; runs: {', '.join(names)}; balances: {', '.join(relations)}"
             )
         return series_of(objective, state, self.ready.residuals(state), names.index(run), relation)
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from slipwise.model import base_model
 from slipwise.session.responses import RESPONSES, RunReplay
+from slipwise.session.series import ALL_BEARINGS
 from slipwise.session.session import Session
 from slipwise.session.state import SessionState
 from slipwise.workbench.frames import frame
@@ -23,7 +24,7 @@ class View:
 
     Attributes:
         run: name.
-        relation: balance whose history is shown.
+        relation: balance whose history is shown; "pads" for what the loops show too, see `Session.series`.
         beside: "", `BEFORE`, `PAPER`, or the name of a model file of the campaign's folder.
         watches: whether a recorded channel is shown, of which only a replay says anything.
     """
@@ -47,15 +48,18 @@ def beside_of(session: Session, view: View) -> SessionState | None:
 def measured_frame(session: Session, run: str) -> bytes:
     """Pack what was measured in a run."""
     own = next(r for r in session.ready.runs if r.name == run)
+    shown = session.series(run)
+    together = not own.forces_measured  # only what all bearings carry is known
     arrays = {
         "time": own.time,
         "slip": own.slip,
         "velocity": own.velocity,
-        "load": np.nan_to_num(own.load),
-        "force": own.force,
+        "load": np.zeros_like(shown.measured) if together else np.nan_to_num(own.load),
+        "force": shown.measured,
         **{f"channel:{name}": values for name, values in own.record.channels.items()},
     }
-    head = {"kind": "measured", "run": run, "role": own.role, "pads": list(own.pads)}
+    panels = [ALL_BEARINGS.capitalize()] if together else [f"Pad {pad}" for pad in own.pads]
+    head = {"kind": "measured", "run": run, "role": own.role, "panels": panels}
     return frame(head, arrays)
 
 

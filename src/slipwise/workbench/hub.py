@@ -116,7 +116,7 @@ class Room:
         """Let a page look at something else."""
         names = [r.name for r in self.session.ready.runs]
         relations = await self._do(lambda: self.session.ready.objective(self.session.state).relations)
-        if run in names and relation in relations:
+        if run in names and relation in ("pads", *relations):
             page.view = View(run, relation, beside, watches)
             await self.show(page)
             await self._ask_for_watched()

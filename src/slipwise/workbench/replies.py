@@ -32,7 +32,9 @@ def campaign_told(session: Session) -> dict[str, Any]:
         "notes": [*ready.prepared.campaign.notes, *(one.words for one in session.corrections), *session.notes],
         "runs": [{"name": r.name, "role": r.role, "seconds": float(r.time[-1] - r.time[0])} for r in ready.runs],
         "relations": {r: {"name": NAMES[r][0], "unit": _unit(NAMES[r][1])} for r in objective.relations},
-        "pads": list(ready.runs[0].pads),
+        # where no pad's friction was measured, what all bearings carry together stands in its place
+        "pads": list(ready.runs[0].pads) if ready.runs[0].forces_measured else [],
+        "pad_unit": _unit(NAMES["pads"][1]),
         "pad_area": objective.specimen.pad_area,
         "channels": {name: {"unit": _shown(channel(name).unit, channel(name).shown_in)} for name in record.channels},
         "effects": [

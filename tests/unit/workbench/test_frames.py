@@ -1,25 +1,11 @@
 """What the page unpacks is what was packed: head, places and numbers."""
 
-import json
-
 import numpy as np
 import pytest
 
 pytest.importorskip("starlette")
-from slipwise.workbench.frames import frame
-
-
-def unpacked(message: bytes):
-    """Read a message as the page does."""
-    length = int.from_bytes(message[:4], "little")
-    head = json.loads(message[4 : 4 + length])
-    assert (4 + length) % 4 == 0, "arrays stand where the browser can read them in place"
-    numbers = np.frombuffer(message[4 + length :], "<f4")
-    arrays = {}
-    for name, (first, shape) in head["arrays"].items():
-        size = int(np.prod(shape))
-        arrays[name] = numbers[first : first + size].reshape(shape[::-1]).T
-    return head, arrays
+from slipwise.workbench.frames import frame  # noqa: E402  needs the extra
+from unpacked_frame import unpacked  # noqa: E402
 
 
 @pytest.mark.parametrize("words", ["", "a", "ab", "abc", "Größe"])

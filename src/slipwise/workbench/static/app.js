@@ -92,9 +92,13 @@ function drawCampaign() {
   options(find("run"), [["", campaign.runs.map((r) => [r.name, r.role === "holdout" ? `${r.name} (held out)` : r.name])]]);
   options(find("beside"), [["", [["", "nothing"], ["before", "the model before"], ["paper", "the rated model"]]],
     ["model files", campaign.models.map((name) => [name, name])]]);
-  const pads = [...(campaign.pads.length > 1 ? [["pads:sum", "friction, sum of the pads"]] : []), ...campaign.pads.map((p, i) => [`pads:${i}`, `friction, pad ${p}`])];
+  const together = !campaign.pads.length; // no pad's friction was measured: only what all bearings carry is known
+  const sums = together ? [["pads:0", "force of all bearings"]] : campaign.pads.length > 1 ? [["pads:sum", "friction, sum of the pads"]] : [];
+  const pads = [...sums, ...campaign.pads.map((p, i) => [`pads:${i}`, `friction, pad ${p}`])];
+  for (const [place, option] of [...find("shape").options].entries()) option.hidden = option.disabled = together && place > 0;
+  if (together) [find("shape").value, find("shape").options[0].textContent] = ["loop", "force over slip"];
   const balances = Object.entries(campaign.relations).filter(([r]) => r !== "pads").map(([r, { name }]) => [`balance:${r}`, name]);
-  options(find("history"), [["pads", pads], ["balances", balances], ["channels", Object.keys(campaign.channels).map((c) => [`channel:${c}`, c])]]);
+  options(find("history"), [[together ? "bearings" : "pads", pads], ["balances", balances], ["channels", Object.keys(campaign.channels).map((c) => [`channel:${c}`, c])]]);
 }
 
 function drawState() {
@@ -135,7 +139,7 @@ function drawHistory() {
     const of = (columns) => columns && (name === "sum" ? sum(columns) : columns[Number(name)]);
     const floors = curves.relation === "pads" ? curves.floor : null;
     const floor = floors && (name === "sum" ? Math.hypot(...floors) : floors[Number(name)]);
-    shown = { unit: campaign.relations.pads.unit, measured: of(measured.arrays.force), model: of(curves.arrays.pads), beside: of(curves.arrays.beside_pads), floor };
+    shown = { unit: campaign.pad_unit, measured: of(measured.arrays.force), model: of(curves.arrays.pads), beside: of(curves.arrays.beside_pads), floor };
   } else if (kind === "balance") {
     if (curves.relation !== name) return look();
     const unit = curves.unit === "1" ? FLOORS : campaign.relations[name].unit;

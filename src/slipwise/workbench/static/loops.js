@@ -5,7 +5,7 @@ import { factor, label, written } from "./units.js";
 
 const ROOM = 0.12, LEFT = 40, BELOW = 22, TOP = 4, RIGHT = 6, SLOW = 0.002, FAST = 0.01;
 const SHAPES = {
-  loop: { points: false, x: "slip", xUnit: { si: "m", usual: "mm", factor: 1e-3 }, y: "friction", yUnit: { si: "N", usual: "kN", factor: 1e3 } },
+  loop: { points: false, x: "slip", xUnit: { si: "m", usual: "mm", factor: 1e-3 }, y: "force", yUnit: { si: "N", usual: "kN", factor: 1e3 } },
   speed: { points: true, x: "speed", xUnit: { si: "m/s", usual: "mm/s", factor: 1e-3 }, y: "coefficient", yUnit: { si: "1", usual: "1", factor: 1 } },
   pressure: { points: true, x: "pressure", xUnit: { si: "Pa", usual: "MPa", factor: 1e6 }, y: "coefficient", yUnit: { si: "1", usual: "1", factor: 1 } },
 };
@@ -27,7 +27,7 @@ export class Loops {
     this.shape = SHAPES[shape];
     this.kind = shape;
     this.area = area;
-    const names = [...measured.pads.map((pad) => `Pad ${pad}`), ...(measured.pads.length > 1 ? ["Sum of the pads"] : [])];
+    const names = [...measured.panels, ...(measured.panels.length > 1 ? ["Sum of the pads"] : [])];
     if (names.join() !== this.panels.map((p) => p.name).join()) this.#build(names);
     this.draw();
   }
