@@ -2,9 +2,11 @@
 
 import json
 
+import numpy as np
 import pytest
 
 import slipwise as sw
+from slipwise.model import base_model, use
 from slipwise.planning.sensors import make_sensors
 
 MOTION = "quake:seed=2,peak=0.7g,f=4Hz,strong=2s,vertical=0.3g"
@@ -39,6 +41,16 @@ def test_effects_that_heave_alone_shows_have_chances_with_a_vertical_acceleromet
 def test_a_mass_off_its_place_is_put_in_where_it_moves_an_answer_by_two_percent(short):
     [chance] = [c for c in short.planned.of_rig if c.effect == "mass_eccentricity"]
     assert chance.unit == "m" and 1e-4 < abs(chance.value) < 0.05
+
+
+def test_buffers_that_are_unlike_are_put_in_where_they_move_a_channel_by_its_limit(short):
+    """Friction holds the girder until they are unlike enough: no straight line leads from a small size to the limit."""
+    [chance] = [c for c in short.planned.of_rig if c.effect == "buffer_mismatch"]
+    model, motion = base_model("bridge1"), sw.load_motion(MOTION)
+    unlike = model.adding(use("buffer_mismatch", difference=chance.value))
+    one, other = (sw.replay(m, motion).record for m in (model, unlike))
+    moved = [np.std(other[c] - one[c]) / np.std(one[c]) for c in short.planned.channels if c in one and c != "table_ax"]
+    assert max(moved) == pytest.approx(0.02, rel=0.25)
 
 
 def test_the_plan_is_json_and_says_its_gauges_and_motion(short):
