@@ -211,8 +211,9 @@ def main() -> None:
     parser.add_argument("--drawn", action="store_true", help="rigs of any size; each seed decides everything")
     parser.add_argument("--bearings", action="store_true", help="tests of single bearings under a load that is held")
     parser.add_argument("--made", type=Path, help="folder of dirty campaigns that are made already, or made there")
-    parser.add_argument("--quick", action="store_true", help="one campaign only")
+    parser.add_argument("--quick", action="store_true", help="one campaign only, of a single bearing: it takes seconds")
     chosen = parser.parse_args()
+    chosen.bearings |= chosen.quick
     count = 1 if chosen.quick else chosen.count
     cases = work(chosen, count)
     results = run(chosen.out, cases, chosen.workers)

@@ -25,6 +25,8 @@ from mujoco import sysid
 STEP, SLOW_STEP = 1.0e-3, 1.0e-2
 #: Force of a slider whose friction is 1 [N]: large beside the inertia of the 1 kg that the servo moves.
 FORCE = 1.0e3
+#: Stiffness of that servo [N/m]; its damping of two steps keeps it stable whatever the step.
+SERVO = 1.0e6
 MODEL = """<mujoco><option timestep="{step}" integrator="implicitfast" gravity="0 0 0"/><worldbody>
 <body name="mass"><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><joint name="slide" type="slide" axis="1 0 0"/>
 <geom size="0.05" contype="0" conaffinity="0"/></body></worldbody><actuator>{actuator}</actuator>
@@ -70,7 +72,7 @@ def sequences(folder: Path) -> tuple[sysid.ModelSequences, bool]:
     text = MODEL.format(
         step=step,
         actuator='<motor name="drive" joint="slide"/>' if rig
-        else '<position name="drive" joint="slide" kp="1e6" kv="2e3"/>',
+        else f'<position name="drive" joint="slide" kp="{SERVO}" kv="{2.0 * SERVO * step}"/>',
         sensor='<jointpos name="out" joint="slide"/>' if rig else '<actuatorfrc name="out" actuator="drive"/>',
     )  # fmt: skip
     spec = mujoco.MjSpec.from_string(text)

@@ -134,7 +134,9 @@ def _write_held(entry: Table, wanted: EffectUse) -> None:
     """Put the names of what no fit changes into an entry, or take them out."""
     if not wanted.held:
         entry.pop(_HELD, None)
-    elif set(cast(list[str], entry.get(_HELD, []))) != set(wanted.held):
+    elif _HELD not in entry:
+        entry.add(_HELD, tomlkit.item(list(wanted.held)).comment("no fit changes these"))
+    elif set(cast(list[str], entry[_HELD])) != set(wanted.held):
         entry[_HELD] = list(wanted.held)
 
 
