@@ -121,12 +121,15 @@ def _unlike_its_card(runs: Sequence[PreparedRun]) -> WrongUnit | None:
     """Return the cell that moves like the others of its kind, but by a factor of units more or less.
 
     Where a balance fails for other reasons it cannot tell; pads that stand unevenly differ by less than such a factor.
+    A pad between the ends of a girder that pitches moves ten times less too: but its cell shows the weight at rest as
+    the others do, and a factor would be in that as well, unless the cell was tared.
     """
     for place, card in group_gauges(runs[0].record).items():
         if "*" not in place or len(card) <= LIKE_IT:
             continue
         values = {n: np.concatenate([r.record[n] - np.mean(r.record[n]) for r in runs]) for n in card}
         size = {n: float(np.std(v)) for n, v in values.items()}
+        rest = {n: float(np.mean([abs(np.mean(r.record[n])) for r in runs])) for n in card}
         for name in card:
             others = [values[n] / size[n] for n in card if n != name and size[n] > 0.0]
             if size[name] == 0.0 or len(others) < LIKE_IT:
@@ -134,6 +137,9 @@ def _unlike_its_card(runs: Sequence[PreparedRun]) -> WrongUnit | None:
             ratio = size[name] / float(np.median([size[n] for n in card if n != name]))
             together = float(np.corrcoef(values[name], np.mean(others, axis=0))[0, 1])
             factor = _of_units(name, ratio, np.log(_ALIKE))
+            weight = factor * float(np.median([rest[n] for n in card if n != name]))  # as it would show it
+            if rest[name] > size[name] and abs(np.log(rest[name] / max(weight, 1e-300))) > np.log(_ALIKE):
+                continue
             if together > _TOGETHER and factor and max(ratio, 1.0 / ratio) > _UNLIKE:
                 return WrongUnit((name,), factor)
     return None

@@ -1,5 +1,8 @@
 """A column that was read in another unit is named with its factor, and nobody else is accused."""
 
+from types import SimpleNamespace
+from typing import Any, cast
+
 import numpy as np
 import pytest
 
@@ -7,7 +10,8 @@ from slipwise.campaign import Campaign
 from slipwise.instruments.audit import audit
 from slipwise.instruments.checks import check_instruments, corrected_campaign
 from slipwise.preparation.prepare import prepare
-from slipwise.preparation.wrong_units import WrongUnit, find_wrong_units
+from slipwise.preparation.wrong_units import WrongUnit, _unlike_its_card, find_wrong_units
+from slipwise.record import Record
 
 
 def times(campaign: Campaign, factor: float, *names: str) -> Campaign:
@@ -63,6 +67,23 @@ def test_a_dead_a_tared_and_a_turned_cell_are_in_no_other_unit(sound):
     ):
         changed = {r.name: r.record.replaced(**{name: change(r.record[name])}) for r in sound.runs}
         assert find_wrong_units(sound.with_records(changed, "")) == []
+
+
+@pytest.mark.parametrize(
+    ("move", "rest", "factor"),
+    [
+        (0.1, 1.0, None),  # a pad in the middle of a girder that pitches
+        (0.1, 0.1, 0.1),  # a cell in another unit
+        (0.1, 0.0, 0.1),  # the same, tared
+        (10.0, 0.9, None),
+    ],
+)
+def test_a_cell_that_moves_less_is_in_another_unit_only_if_its_weight_at_rest_is_too(move, rest, factor):
+    swing = np.sin(np.linspace(0.0, 60.0, 2000)) * 1e3
+    cells = {f"pad_{p}_N": 20e3 * (1.0 + 0.05 * k) + swing for k, p in enumerate("ACDE")}
+    record = Record(0.002 * np.arange(2000), {**cells, "pad_B_N": 17e3 * rest + move * swing})
+    found = _unlike_its_card([cast(Any, SimpleNamespace(record=record))])
+    assert found == (None if factor is None else WrongUnit(("pad_B_N",), factor))
 
 
 def test_an_audit_names_the_unit_and_accuses_nobody_else(sound):
