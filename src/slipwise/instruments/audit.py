@@ -16,6 +16,7 @@ from slipwise.instruments.balances_case import KNOWN_MASS, RATED_MASS, Case
 from slipwise.instruments.claims import Claim, list_claims, list_physics
 from slipwise.instruments.delay_or_filter import passed
 from slipwise.instruments.displacement_checks import check_displacements
+from slipwise.instruments.fault_columns import shows_only_noise
 from slipwise.instruments.fault_posterior import compute_fault_posterior, fit_base
 from slipwise.instruments.level_checks import contradicted_levels, silent_levels, storey_answers
 from slipwise.instruments.report import AuditFinding, AuditReport, Balance
@@ -100,6 +101,9 @@ def audit(campaign: Campaign | Path | str | Prepared, own: Iterable[Effect] = ()
     highest = passed(likeliest.every if likeliest else None, clean.runs[0].record.dt)
     effects = {**catalogue(), **{e.name: e for e in own}}
     case = Case(runs, allowed, rig, noise, mass_error, highest, tuple(effects.values()))
+    silent = [name for name in runs[0].record.channels if shows_only_noise(case, [name])]
+    if silent:
+        cannot.append(f"gain of {', '.join(silent)}: in these runs there is more noise than signal in it")
     found = compute_fault_posterior(case, fit_base(case))
     claims = list_claims(found)
     findings = _join_zeros(findings, [_of_claim(claim) for claim in claims if not claim.doubt])
@@ -110,6 +114,7 @@ def audit(campaign: Campaign | Path | str | Prepared, own: Iterable[Effect] = ()
         balances=_balances(found.first, found.last),
         physics=tuple(list_physics(found)),
         constants=found.last.point.constants,
+        cannot=tuple(cannot),
         notes=tuple(notes),
     )
 

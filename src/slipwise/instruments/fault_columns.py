@@ -15,6 +15,8 @@ from slipwise.relations.balance_rows import PreparedRun, Stack, adding, list_cha
 
 #: Forms of one disturbance that compete at once.
 _FORMS = 3
+#: Power of a channel over that of its noise from which on there is as much signal as noise in it [1].
+_SIGNAL = 2.0
 #: A lag that is taken out is held against itself at its size times these [1].
 _NEIGHBOURS = (1.0, 1.2, 1.0 / 1.2)
 
@@ -112,7 +114,7 @@ def columns_of_faults(
     forms: dict[str, int] = {}
     for suspect in suspects(case.runs[0].record, case.specimen, case.effects):
         label = label_of(suspect)
-        if label in known:
+        if label in known or (suspect.fault.scales and shows_only_noise(case, suspect.channels)):
             continue
         changes: list[dict[str, Array]] = []
         if label in in_place:
@@ -136,6 +138,15 @@ def columns_of_faults(
                 column = FaultColumn(label, _kind(suspect), True, number, not suspect.one_sided, suspect, block, noise)
                 found.append(column)
     return found
+
+
+def shows_only_noise(case: Case, channels: Sequence[str]) -> bool:
+    """Return whether channels show more noise than signal: of such a gauge nobody knows how much it reads of either."""
+
+    def power(parts: Sequence[Mapping[str, Array]]) -> float:
+        return sum(float(np.sum((one[n] - np.mean(one[n])) ** 2)) for one in parts for n in channels if n in one)
+
+    return power([run.record.channels for run in case.runs]) < _SIGNAL * power(case.noise)
 
 
 def _list_blind_relations(case: Case, suspect: Suspect) -> set[str]:
