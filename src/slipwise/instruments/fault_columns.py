@@ -1,7 +1,8 @@
 """What every candidate changes in the balances of a rigid girder: one column for each fault of a gauge in each form."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from slipwise.instruments.balances_case import Case, Point, mended
 from slipwise.instruments.delay_or_filter import is_delay
 from slipwise.instruments.disturbances import Alternative
 from slipwise.instruments.suspects import Suspect, suspects
+from slipwise.record import Record
 from slipwise.regression.normal_equations import Block, build_equations, invert_regularised, weigh_equations
 from slipwise.relations.balance_rows import PreparedRun, Stack, adding, list_changed_rows, stack_rows, with_records
 
@@ -116,28 +118,55 @@ def columns_of_faults(
         label = label_of(suspect)
         if label in known or (suspect.fault.scales and shows_only_noise(case, suspect.channels)):
             continue
-        changes: list[dict[str, Array]] = []
+        changes: list[tuple[dict[str, Array], dict[str, float]]] = []
         if label in in_place:
             for factor in _NEIGHBOURS if suspect.unit == "s" else (1.0,):
                 size = factor * in_place[label][1]
                 if (suspect.one_sided and size <= 0.0) or is_delay(suspect.effect, suspect.values(size), case.passed):
                     continue
-                changed = with_records(bare[label].runs, lambda r, s=suspect, z=size: s.correct(r, z))
-                change = at.changed(changed, suspect, bare[label].stack)
-                changes.append({n: rows * (suspect.least / size) for n, rows in change.items()})
+                take = partial(suspect.correct, size=size)
+                changes.append(_change_by(bare[label], suspect, take, suspect.least / size, large=True))
         elif not suspect.effect.plainer:  # a small filter is a delay
             for size in anew.get(label, (suspect.step / suspect.least,)):
-                changed = with_records(at.runs, lambda r, s=suspect, z=size: s.distort(r, z * s.least))
-                change = at.changed(changed, suspect, at.stack)
-                changes.append({n: rows / -size for n, rows in change.items()})
+                take = partial(suspect.distort, size=size * suspect.least)
+                changes.append(_change_by(at, suspect, take, -1.0 / size, large=label in anew))
         blind = _list_blind_relations(case, suspect)
-        for change in ({n: rows for n, rows in one.items() if n not in blind} for one in changes):
-            if any(np.any(rows) for rows in change.values()):
+        for change, noise in changes:
+            block = {n: rows[:, None] for n, rows in change.items() if n not in blind}
+            if any(np.any(rows) for rows in block.values()):
                 number = forms[label] = forms.get(label, -1) + 1
-                block, noise = {n: rows[:, None] for n, rows in change.items()}, _noise_with_itself(at, suspect)
+                noise = noise or _noise_with_itself(at, suspect)
                 column = FaultColumn(label, _kind(suspect), True, number, not suspect.one_sided, suspect, block, noise)
                 found.append(column)
     return found
+
+
+def _change_by(
+    at: BalancesAt, suspect: Suspect, take: Callable[[Record], Record], factor: float, *, large: bool
+) -> tuple[dict[str, Array], dict[str, float]]:
+    """Return a column, and what noise adds to its product with what is left: nothing where no lag is large.
+
+    Half way between noise and the same noise at another time there is less of it, and a large lag would explain that.
+
+    Args:
+        at: balances without the fault.
+        suspect: the fault.
+        take: changes a record by it.
+        factor: by which the change of the balances becomes the column.
+        large: whether it is taken at a size at which a lag moves noise to where it is other noise.
+    """
+
+    def change(runs: Sequence[PreparedRun], before: Stack) -> dict[str, Array]:
+        changed = at.changed(with_records(runs, take), suspect, before)
+        return {n: rows * factor for n, rows in changed.items()}
+
+    column = change(at.runs, at.stack)
+    if not large or suspect.unit != "s":
+        return column, {}
+    noisy = adding(at.runs, at.case.noise, suspect.channels)
+    stack = stack_rows(noisy, at.case.relations, at.case.specimen, at.point.constants)
+    beside = change(noisy, stack)
+    return column, {n: -float((stack.residual[n] - at.stack.residual[n]) @ (beside[n] - column[n])) for n in column}
 
 
 def shows_only_noise(case: Case, channels: Sequence[str]) -> bool:
