@@ -124,8 +124,8 @@ def columns_of_faults(
                 size = factor * in_place[label][1]
                 if (suspect.one_sided and size <= 0.0) or is_delay(suspect.effect, suspect.values(size), case.passed):
                     continue
-                take = partial(suspect.correct, size=size)
-                changes.append(_change_by(bare[label], suspect, take, suspect.least / size, large=True))
+                take = partial(suspect.correct, size=size)  # where all of it is out there is as much noise as before
+                changes.append(_change_by(bare[label], suspect, take, suspect.least / size, large=False))
         elif not suspect.effect.plainer:  # a small filter is a delay
             for size in anew.get(label, (suspect.step / suspect.least,)):
                 take = partial(suspect.distort, size=size * suspect.least)
