@@ -1,7 +1,7 @@
 """What every candidate changes in the balances of a rigid girder: one column for each fault of a gauge in each form."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -125,11 +125,13 @@ def columns_of_faults(
                 if (suspect.one_sided and size <= 0.0) or is_delay(suspect.effect, suspect.values(size), case.passed):
                     continue
                 take = partial(suspect.correct, size=size)  # where all of it is out there is as much noise as before
-                changes.append(_change_by(bare[label], suspect, take, suspect.least / size, large=False))
+                changes.append((_change_by(bare[label], suspect, take, suspect.least / size), {}))
         elif not suspect.effect.plainer:  # a small filter is a delay
             for size in anew.get(label, (suspect.step / suspect.least,)):
                 take = partial(suspect.distort, size=size * suspect.least)
-                changes.append(_change_by(at, suspect, take, -1.0 / size, large=label in anew))
+                change = _change_by(at, suspect, take, -1.0 / size)
+                large = suspect.unit == "s" and label in anew
+                changes.append((change, _noise_of_lag(at, suspect, take, -1.0 / size, change) if large else {}))
         blind = _list_blind_relations(case, suspect)
         for change, noise in changes:
             block = {n: rows[:, None] for n, rows in change.items() if n not in blind}
@@ -141,32 +143,34 @@ def columns_of_faults(
     return found
 
 
-def _change_by(
-    at: BalancesAt, suspect: Suspect, take: Callable[[Record], Record], factor: float, *, large: bool
-) -> tuple[dict[str, Array], dict[str, float]]:
-    """Return a column, and what noise adds to its product with what is left: nothing where no lag is large.
+def _change_by(at: BalancesAt, suspect: Suspect, take: Callable[[Record], Record], factor: float) -> dict[str, Array]:
+    """Return what a change of the records changes in the balances times a factor, relation -> (n,)."""
+    changed = at.changed(with_records(at.runs, take), suspect, at.stack)
+    return {n: rows * factor for n, rows in changed.items()}
+
+
+def _noise_of_lag(
+    at: BalancesAt,
+    suspect: Suspect,
+    take: Callable[[Record], Record],
+    factor: float,
+    change: Mapping[str, Array],
+) -> dict[str, float]:
+    """Return what the gauge's own noise adds to the product of a large lag's column with what is left.
 
     Half way between noise and the same noise at another time there is less of it, and a large lag would explain that.
 
     Args:
         at: balances without the fault.
-        suspect: the fault.
-        take: changes a record by it.
+        suspect: the lag.
+        take: changes a record by it, so far that noise comes to where it is other noise.
         factor: by which the change of the balances becomes the column.
-        large: whether it is taken at a size at which a lag moves noise to where it is other noise.
+        change: the column.
     """
-
-    def change(runs: Sequence[PreparedRun], before: Stack) -> dict[str, Array]:
-        changed = at.changed(with_records(runs, take), suspect, before)
-        return {n: rows * factor for n, rows in changed.items()}
-
-    column = change(at.runs, at.stack)
-    if not large or suspect.unit != "s":
-        return column, {}
-    noisy = adding(at.runs, at.case.noise, suspect.channels)
-    stack = stack_rows(noisy, at.case.relations, at.case.specimen, at.point.constants)
-    beside = change(noisy, stack)
-    return column, {n: -float((stack.residual[n] - at.stack.residual[n]) @ (beside[n] - column[n])) for n in column}
+    runs = adding(at.runs, at.case.noise, suspect.channels)
+    noisy = replace(at, runs=runs, stack=stack_rows(runs, at.case.relations, at.case.specimen, at.point.constants))
+    beside = _change_by(noisy, suspect, take, factor)
+    return {n: -float((noisy.stack.residual[n] - at.stack.residual[n]) @ (beside[n] - change[n])) for n in change}
 
 
 def shows_only_noise(case: Case, channels: Sequence[str]) -> bool:
