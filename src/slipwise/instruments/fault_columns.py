@@ -95,7 +95,8 @@ def columns_of_faults(
     """Return the columns of all faults, in units of their least size.
 
     The column of a fault that is taken out of the records is the whole change over its size: a large delay is no
-    straight line from zero. The other forms of such a fault are held against it at the same size.
+    straight line from zero. The other forms of such a fault, and other effects that are a lag of the same gauge, are
+    held against it at the same size.
 
     Args:
         at: where.
@@ -103,7 +104,10 @@ def columns_of_faults(
         anew: labels whose columns are taken again -> sizes at which they are taken [least sizes].
     """
     case, point = at.case, at.point
+    every = suspects(case.runs[0].record, case.specimen, case.effects)
     in_place = {label_of(s): (s, size) for s, size in point.sizes}
+    lags = {s.channels: one for one in in_place.values() if (s := one[0]).unit == "s"}
+    in_place = {label_of(s): lags[s.channels] for s in every if s.unit == "s" and s.channels in lags} | in_place
     bare: dict[str, BalancesAt] = {
         label: evaluate(case, Point(point.constants, tuple(one for one in point.sizes if one[0] is not suspect)))
         for label, (suspect, _) in in_place.items()
@@ -114,7 +118,7 @@ def columns_of_faults(
             known.setdefault(c.label, []).append(c)
     found = [c for own in known.values() for c in own]
     forms: dict[str, int] = {}
-    for suspect in suspects(case.runs[0].record, case.specimen, case.effects):
+    for suspect in every:
         label = label_of(suspect)
         if label in known or (suspect.fault.scales and shows_only_noise(case, suspect.channels)):
             continue
