@@ -22,6 +22,7 @@ from slipwise.model import Model
 from slipwise.noise.level import is_at_floor
 from slipwise.preparation.data_corrections import BEFORE_BALANCES, DataCorrection
 from slipwise.record import Record
+from slipwise.selection.columns_at_limits import plant_at_limits
 from slipwise.selection.explained_alone import ExplainedAlone
 from slipwise.selection.importance import Importance
 from slipwise.selection.power import TWINS, EffectPower, compute_power
@@ -153,7 +154,7 @@ class Diagnosis(Drawn, Tabular):
         Args:
             twins: campaigns with the same model, motions and noise that are looked at for each effect.
         """
-        weighed = self.search.weighed
+        weighed = plant_at_limits(self.search)
         return self if weighed is None else replace(self, power=compute_power(weighed, twins))
 
     @one_thread_algebra()

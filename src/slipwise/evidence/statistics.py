@@ -1,5 +1,6 @@
 """Products of residual, slopes and columns, relation by relation: all that a posterior asks of the samples."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -39,6 +40,26 @@ def scale_columns(statistics: Statistics, factors: Array) -> Statistics:
     """Return the products with every candidate's column multiplied by a factor (K,)."""
     by = np.concatenate([np.ones(statistics.base), factors])
     return replace(statistics, products=statistics.products * np.outer(by, by), pulls=statistics.pulls * by)
+
+
+def restrict(statistics: Statistics, relations: Sequence[int], columns: Sequence[int]) -> Statistics:
+    """Return the products of some relations, and of some columns beside the numbers that are fitted, by their places.
+
+    Args:
+        statistics: products.
+        relations: places of relations.
+        columns: places of columns, the first one after the numbers that are fitted is 0.
+    """
+    every, at = [*range(statistics.base), *(statistics.base + k for k in columns)], list(relations)
+    return replace(
+        statistics,
+        products=statistics.products[np.ix_(at, every, every)],
+        pulls=statistics.pulls[np.ix_(at, every)],
+        squares=statistics.squares[at],
+        fitted=statistics.fitted[at],
+        rows=statistics.rows[at],
+        samples=statistics.samples[at],
+    )
 
 
 def compute_left_by_base(statistics: Statistics) -> Array:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from slipwise.evidence.calibration import load_calibration
-from slipwise.planning.planned_columns import Allowed, PlannedColumns, add_motions, restrict
+from slipwise.evidence.statistics import restrict
+from slipwise.planning.planned_columns import Allowed, PlannedColumns, add_motions
 from slipwise.selection.columns import CandidateColumn
 from slipwise.selection.planned_twins import decide_twins, draw_pulls, prepare_weighing, weigh
 from slipwise.short_repr import short_repr
@@ -78,7 +79,8 @@ def compute_chances(
         allowed: what the gauges allow.
         gauges: whether faults of gauges are put in too.
     """
-    statistics = restrict(add_motions([planned.by_motion[k] for k in motions]), allowed)
+    products = add_motions([planned.by_motion[k] for k in motions])
+    statistics = restrict(products, allowed.relations, allowed.columns)
     kept = [planned.columns[k] for k in allowed.columns]
     weighing = prepare_weighing(statistics, kept, planned.tolerances)
     of = {t.label: t for t in planned.terms}

@@ -6,26 +6,21 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from slipwise.campaign import Campaign
-from slipwise.campaign.materiality import Materiality
 from slipwise.estimation.base_fit import BaseFit, fit_base
 from slipwise.estimation.objective import make_objective
 from slipwise.evidence.statistics import Statistics
 from slipwise.model import Model
 from slipwise.relations.parameters import Term, make_terms
 from slipwise.relations.run_data import fit_runs
-from slipwise.selection.averaged_rows import AveragedRows, make_averaged_rows
+from slipwise.selection.averaged_rows import make_averaged_rows
 from slipwise.selection.candidates import list_candidates
-from slipwise.selection.columns import CandidateColumn, CandidateForm, compute_raw_columns, list_forms
+from slipwise.selection.columns import CandidateColumn, compute_raw_columns, is_curved, list_forms
+from slipwise.selection.columns_at_limits import compute_columns_at_limits
 from slipwise.selection.hypothesis import make_base_hypothesis
-from slipwise.selection.initial_grid import shapes, strengths
 from slipwise.selection.linearisation import Linearisation, linearise
 from slipwise.selection.proposals import bring_to_units, find_runs_of_most
-from slipwise.selection.sensitivities import small, typical
 from slipwise.selection.statistics import compute_statistics
-from slipwise.selection.units import Moved, compute_moved_by_sizes, compute_units
-
-#: Replays by which the size that is one limit is found, and by how much one of them may enlarge a size at most [1].
-_STEPS_TO_LIMIT, _LARGEST_STEP = 2, 10.0
+from slipwise.selection.units import compute_units
 
 
 @dataclass(frozen=True)
@@ -72,8 +67,9 @@ def compute_planned_columns(campaign: Campaign, model: Model, tell: Callable[[st
     tell("replaying every effect at the limit of materiality", 0.5)
     most = find_runs_of_most(raw, rows)
     units = compute_units(base, terms, (), campaign.materiality, most)
-    curved = {f.term.label: f.term for f in forms if f.size}
-    raw, units = _take_at_limits(base, list(curved.values()), raw, units, rows, campaign.materiality, most)
+    curved = {t.label: t for t in terms if is_curved(base, t)}
+    at_limits, moved = compute_columns_at_limits(base, [*curved.values()], units, rows, campaign.materiality, most)
+    raw, units = [*(c for c in raw if c.label not in curved), *at_limits], {**units, **moved}
     tell("products", 0.9)
     here = linearise(base, make_base_hypothesis(base), rows, bring_to_units(raw, units, rows), campaign.materiality)
     bare = tuple(replace(c, column=c.column[:0]) for c in here.columns)
@@ -81,45 +77,6 @@ def compute_planned_columns(campaign: Campaign, model: Model, tell: Callable[[st
     silent = {t.effect.name for t in terms} - {t.effect.name for t in terms if t.label in known}
     untestable = {**untestable, **dict.fromkeys(sorted(silent), "changes nothing in these motions")}
     return PlannedColumns(base, rows.relations, tuple(terms), bare, _split_by_motion(here), here.tolerances, untestable)
-
-
-def _take_at_limits(
-    base: BaseFit,
-    terms: Sequence[Term],
-    raw: Sequence[CandidateColumn],
-    units: Mapping[tuple[str, str], Moved],
-    rows: AveragedRows,
-    limits: Materiality,
-    most: Mapping[str, int],
-) -> tuple[list[CandidateColumn], dict[tuple[str, str], Moved]]:
-    """Return columns and what they move, of effects that are no straight line at the size that is one limit.
-
-    A girder that friction holds until its buffers are unlike enough turns far less at half a size than half as much.
-
-    Args:
-        base: the fit from which the candidates depart.
-        terms: these effects.
-        raw: columns of all effects, as `compute_raw_columns` gives them.
-        units: what their steps move.
-        rows: how residuals are averaged.
-        limits: what matters.
-        most: as of `compute_units`.
-    """
-    asked = [(t, p, float(p.neutral or 0.0)) for t in terms for p in strengths(t.effect) if (t.label, p.name) in units]
-    values = [small(t.effect, shapes(t.effect)[0], p) for t, p, _ in asked]
-    found = [units[t.label, p.name] for t, p, _ in asked]
-    for _ in range(_STEPS_TO_LIMIT):
-        for (_, p, off), v, one in zip(asked, values, found, strict=True):
-            step = (v[p.name] - off) / max(one.share, 1.0 / _LARGEST_STEP)
-            v[p.name] = float(np.clip(off + step, p.low, p.high))
-        found = compute_moved_by_sizes(base, [(t, v) for (t, _, _), v in zip(asked, values, strict=True)], limits, most)
-    sizes = [(v[p.name] - off) / (typical(t.effect, p) - off) for (t, p, off), v in zip(asked, values, strict=True)]
-    forms = [CandidateForm(t, k, shapes(t.effect)[0], sizes[k]) for k, (t, _, _) in enumerate(asked)]
-    names = {(t.label, k): p.name for k, (t, p, _) in enumerate(asked)}
-    own = [c for c in compute_raw_columns(base, forms, rows) if c.strength == names[c.label, c.form]]
-    labels = {term.label for term in terms}
-    columns = [c for c in raw if c.label not in labels] + [replace(c, form=0) for c in own]
-    return columns, {**units, **{(t.label, p.name): one for (t, p, _), one in zip(asked, found, strict=True)}}
 
 
 def _split_by_motion(here: Linearisation) -> tuple[Statistics, ...]:
@@ -185,18 +142,3 @@ def find_allowed(planned: PlannedColumns, channels: Sequence[str]) -> Allowed:
     allowed = {t.label for t in list_candidates(replace(base, campaign=campaign, objective=objective))[0]}
     relations = (k for k, name in enumerate(planned.relations) if name in objective.relations)
     return Allowed(tuple(relations), tuple(k for k, c in enumerate(planned.columns) if c.label in allowed))
-
-
-def restrict(statistics: Statistics, allowed: Allowed) -> Statistics:
-    """Return the products of some relations and some columns alone."""
-    every = [*range(statistics.base), *(statistics.base + k for k in allowed.columns)]
-    at = list(allowed.relations)
-    return replace(
-        statistics,
-        products=statistics.products[np.ix_(at, every, every)],
-        pulls=statistics.pulls[np.ix_(at, every)],
-        squares=statistics.squares[at],
-        fitted=statistics.fitted[at],
-        rows=statistics.rows[at],
-        samples=statistics.samples[at],
-    )

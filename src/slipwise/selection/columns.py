@@ -95,9 +95,8 @@ class CandidateForm:
 def list_forms(base: BaseFit, terms: Sequence[Term], *, late: bool = False) -> list[CandidateForm]:
     """Return the forms of candidates that are tried first.
 
-    A girder that friction holds until its buffers are unlike enough does not turn where they are nearly alike, and a
-    gauge that lags by a third of a period changes little or the opposite of what a small lag does: such candidates are
-    tried at full size too.
+    A gauge that lags by a third of a period changes little or the opposite of what a small lag does: such candidates,
+    and those that turn the girder, are tried at full size too.
 
     Args:
         base: the fit from which the candidates depart.
@@ -106,11 +105,20 @@ def list_forms(base: BaseFit, terms: Sequence[Term], *, late: bool = False) -> l
     """
     out = [CandidateForm(t, number, shape) for t in terms for number, shape in enumerate(shapes(t.effect))]
     for term in terms:
-        turns = base.objective.adding(term).makes_yaw != base.objective.makes_yaw and len(shapes(term.effect)) == 1
-        if turns or (late and is_lag(term.effect)):
+        if is_curved(base, term) or (late and is_lag(term.effect)):
             most = sum(form.term is term for form in out)
             out += [CandidateForm(term, most + k, shapes(term.effect)[0], size) for k, size in enumerate(FULL_SIZES)]
     return out
+
+
+def is_curved(base: BaseFit, term: Term) -> bool:
+    """Return whether a candidate turns the girder: friction holds that until it is large enough.
+
+    Args:
+        base: the fit from which the candidate departs.
+        term: the candidate.
+    """
+    return base.objective.adding(term).makes_yaw != base.objective.makes_yaw and len(shapes(term.effect)) == 1
 
 
 def compute_raw_columns(base: BaseFit, forms: Sequence[CandidateForm], rows: AveragedRows) -> list[CandidateColumn]:

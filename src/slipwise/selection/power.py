@@ -60,7 +60,7 @@ def compute_power(weighed: WeighedModel, twins: int = TWINS) -> dict[str, Effect
     """Return effect -> what would be said of it, for every candidate that the model has not.
 
     Args:
-        weighed: of the campaign.
+        weighed: of the campaign; effects that have planted columns are put in by these.
         twins: of each effect, `DRAWS` at most.
     """
     present = {c.effect for c in weighed.columns if c.form == OF_MODEL}
@@ -68,6 +68,8 @@ def compute_power(weighed: WeighedModel, twins: int = TWINS) -> dict[str, Effect
     for place, c in enumerate(weighed.columns):
         if c.effect not in present and c.form != OF_MODEL:
             members.setdefault(c.effect, []).append(place)
+    for name, places in members.items():
+        members[name] = [k for k in places if k < weighed.planted] or places
     asked = [(name, k) for name in members for k in range(min(twins, DRAWS))]
     shown = _compute_shown(weighed)
 

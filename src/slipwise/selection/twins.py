@@ -10,7 +10,7 @@ import numpy as np
 
 from slipwise.arrays import Array
 from slipwise.evidence.posterior import Effort, Posterior, compute_posterior
-from slipwise.evidence.statistics import Statistics
+from slipwise.evidence.statistics import Statistics, restrict
 from slipwise.selection.weighed_model import WeighedModel
 
 #: Of one twin among many.
@@ -46,8 +46,10 @@ def make_twin(weighed: WeighedModel, place: int, size: float, draw: int) -> Twin
 
 def compute_posterior_of_twin(weighed: WeighedModel, twin: Twin) -> Posterior:
     """Return what a posterior says of a twin."""
+    every, columns = range(len(weighed.columns)), weighed.columns[weighed.planted :]
     statistics = compute_statistics_of_twin(weighed, twin)
-    return compute_posterior(statistics, weighed.columns, weighed.tolerances, weighed.apart, _EFFORT)
+    sought = restrict(statistics, range(len(statistics.rows)), every[weighed.planted :])
+    return compute_posterior(sought, columns, weighed.tolerances, weighed.apart, _EFFORT)
 
 
 def compute_statistics_of_twin(weighed: WeighedModel, twin: Twin) -> Statistics:

@@ -54,6 +54,7 @@ class WeighedModel:
         noise: (d, r, k) products of columns with the residual of the fit, drawn again.
         units: (label, strength) of a candidate -> what some size of it moves.
         numbers: that stand before the columns in the products.
+        planted: so many of the first columns are put into twins only; no posterior looks for them.
     """
 
     statistics: Statistics
@@ -65,6 +66,7 @@ class WeighedModel:
     noise: Array
     units: Mapping[tuple[str, str], Moved]
     numbers: tuple[BaseNumber, ...]
+    planted: int = 0
 
     @cached_property
     def left_by_base(self) -> Array:
@@ -77,6 +79,7 @@ def keep_weighed_model(
     posterior: Posterior,
     units: Mapping[tuple[str, str], Moved],
     apart: frozenset[tuple[str, str]],
+    planted: int = 0,
 ) -> WeighedModel:
     """Keep of a linearisation and its posterior what later questions need.
 
@@ -85,6 +88,7 @@ def keep_weighed_model(
         posterior: at it.
         units: of `compute_units`.
         apart: labels of terms that cannot be in one model, in both orders.
+        planted: so many of the first columns are put into twins only.
     """
     own = np.zeros(here.statistics.products.shape[1])
     own[len(own) - len(here.own) :] = [1.0 / c.unit for c in here.own]
@@ -97,7 +101,7 @@ def keep_weighed_model(
     bare = tuple(replace(c, column=np.zeros(0, np.float32)) for c in here.columns)
     solution = here.hypothesis.solution
     numbers = tuple(BaseNumber(f.key, solution.values[f.key], f.scale) for f in here.numbers)
-    return WeighedModel(here.statistics, bare, here.tolerances, apart, posterior, own, noise, units, numbers)
+    return WeighedModel(here.statistics, bare, here.tolerances, apart, posterior, own, noise, units, numbers, planted)
 
 
 def _draw_signs(rows: AveragedRows) -> Array:

@@ -1,10 +1,12 @@
 """Power on made columns: what shows is seen, what does not is not, and what looks alike is taken for the other."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from slipwise.selection.power import compute_power
-from slipwise.selection.twins import compute_statistics_of_twin, make_twin
+from slipwise.selection.twins import compute_posterior_of_twin, compute_statistics_of_twin, make_twin
 from slipwise.selection.weighed_model import WeighedModel
 from weighed import column, noise, waves, weigh
 
@@ -37,3 +39,13 @@ def test_power_tells_what_would_be_seen_and_for_what_it_would_be_taken(weighed: 
     assert power["run_in"].seen == 0
     pair = power["guide_drag"]
     assert pair.named < 6 and set(pair.taken_for) <= {"slide_tilt"}
+
+
+def test_an_effect_that_has_a_planted_column_is_put_in_by_it_and_sought_by_its_own() -> None:
+    x = waves(5)
+    sought = [column("heating", x[:, 0]), column("guide_drag", x[:, 3])]
+    weighed = replace(weigh(noise(), [column("heating", 0.02 * x[:, 1]), *sought]), planted=1)
+    power = compute_power(weighed, 6)
+    assert power["heating"].seen == 0 and power["guide_drag"].seen == 6
+    strong = compute_posterior_of_twin(weighed, make_twin(weighed, 1, 1.0, 0))
+    assert strong.strengths.shape[1] == 2 and strong.sizes[:, strong.labels.index("heating")].mean() > 0.5

@@ -155,7 +155,7 @@ def loops_figure(found: Comparison) -> Figure:
                 axes.set(title=f"Pad {run.pads[0]}", xlabel="slip x [mm]", ylabel=f"friction [{unit}]")
             else:
                 axes.set(title="All bearings, from inertia", xlabel="slip x [mm]", ylabel=f"force [{unit}]")
-            axes.legend(loc="lower right")
+            figure.legend(*axes.get_legend_handles_labels(), loc="outside upper right", ncols=2)  # loops fill the panel
             return figure
         figure = new_figure(11.0, 5.8)
         rig = run.states.specimen
@@ -165,7 +165,7 @@ def loops_figure(found: Comparison) -> Figure:
         for i, pad in enumerate(run.pads):
             _loop(panels[pad], run, run.force[:, i], said[:, i], part)
         _loop(panels[SUM_PANEL], run, run.force.sum(axis=1), said.sum(axis=1), part)
-        panels[SUM_PANEL].legend(loc="lower right")
+        figure.legend(*panels[SUM_PANEL].get_legend_handles_labels(), loc="outside upper right", ncols=2)
     return figure
 
 

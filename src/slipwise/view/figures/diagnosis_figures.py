@@ -121,9 +121,10 @@ def loops_figure(found: Diagnosis) -> Figure:
         said = np.where(run.sliding, force, np.nan) if run.forces_measured else force
         _loop(axes, run.slip, measured, EXPECTED, "measured", 2.2)
         _loop(axes, run.slip, said, colour, label, 0.9)
-        axes.set_title(label)
+        axes.set_title(label, loc="left")
         axes.set_xlabel("slip [mm]")
-        axes.legend(loc="lower right", frameon=True, framealpha=0.85, edgecolor="none")  # loops fill the panel
+    lines = {str(line.get_label()): line for axes in panels for line in axes.get_lines()}
+    figure.legend(lines.values(), lines.keys(), loc="outside upper right", ncols=3)  # loops fill the panels
     panels[0].set_ylabel(f"friction of pad {run.pads[0]} [kN]" if run.forces_measured else "force of all bearings [kN]")
     return figure
 
