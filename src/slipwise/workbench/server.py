@@ -97,6 +97,7 @@ def application(opening: Opening, token: str, key: str) -> Starlette:
         part, name = request.path_params["token"], request.path_params.get("name", "index.html")
         if not allowed(part, request.headers.get("host"), request.headers.get("origin")):
             return PlainTextResponse("This address has no page; take the one that `slipwise workbench` prints.\n", 404)
+        opening.expect_page()
         if name in _REPORTS:
             return await asyncio.to_thread(_report, opening.place, name)
         if name == "theme.css":
@@ -127,6 +128,7 @@ def application(opening: Opening, token: str, key: str) -> Starlette:
             room = await opening.room()
         except SlipwiseError as error:
             await send({"kind": "over", "words": str(error)})
+            opening.page_was_told()
             return
         from slipwise.workbench.actions import act  # loaded with the room by now
 
@@ -199,8 +201,9 @@ def run(campaign: Path | str, *, trust: "Trust", port: int, show: bool) -> None:
     )
     logging.getLogger("uvicorn.error").addFilter(_without_traceback)  # after the configuration of its own logging
     server = uvicorn.Server(config)
-    if show:  # a browser takes as long to come as the session to open
-        webbrowser.open(f"{root}/{_ONCE}/{key}")
+    # a browser takes as long to come as the session to open
+    if show and webbrowser.open(f"{root}/{_ONCE}/{key}"):
+        opening.expect_page()
     asyncio.run(server.serve(sockets=[listening]))
     opening.check()
 

@@ -12,6 +12,9 @@ if TYPE_CHECKING:  # what it takes to load them is what the page need not wait f
     from slipwise.effects import Trust
     from slipwise.workbench.hub import Room
 
+#: A page that is on its way is waited for so long, to be told why nothing opens [s].
+_ON_ITS_WAY = 10.0
+
 
 class Opening:
     """A room that is being opened."""
@@ -29,10 +32,19 @@ class Opening:
         self._trust, self._address, self._ended = trust, address, ended
         self._task: asyncio.Task[Room] | None = None
         self._lost: SlipwiseError | None = None
+        self._page_comes = False
 
     def begin(self) -> None:
         """Open the room beside the running loop."""
         self._task = asyncio.create_task(self._open())
+
+    def expect_page(self) -> None:
+        """Let a page hear that the room cannot be opened before the command ends."""
+        self._page_comes = True
+
+    def page_was_told(self) -> None:
+        """End the command: a page shows why the room cannot be opened."""
+        self._ended()
 
     @property
     def done(self) -> bool:
@@ -73,7 +85,7 @@ class Opening:
         try:
             room = await asyncio.to_thread(self._opened)
         except BaseException:
-            self._ended()
+            asyncio.get_running_loop().call_later(_ON_ITS_WAY if self._page_comes else 0.0, self._ended)
             raise
         room.begin()
         print(f"{room.session.campaign.name} is open at {self._address}", flush=True)
