@@ -208,6 +208,8 @@ def _next_steps(found: "sw.Diagnosis", campaign: Path, accepted: bool) -> list[s
         return [f"`slipwise next {place}` for a motion that tells them apart"]
     if kind == "unknown":
         return [f"`slipwise discover {place}` for its law"]
+    if found.verdict.is_doubtful:
+        return [f"`slipwise next {place}` for a motion that would tell more"]
     if accepted or not found.verdict.effects:
         return [f"`slipwise bearing {place}` for what standards ask"]
     return [f"`slipwise add {found.verdict.effects[0]} --campaign {place}`"]

@@ -220,6 +220,11 @@ class Diagnosis(Drawn, Tabular):
                 return f"Nothing {least} is missing ({_short(self.base_error)} times the floor; {chance}){self._minor}."
             case "named":
                 more = "; form not exact" if self.verdict.leftover == "unknown" and not beside else ""
+                if self.verdict.is_doubtful:
+                    best = (
+                        f"The best account of it, {names}{beside}, is more likely wrong in part than right ({chance})"
+                    )
+                    return f"Something is missing. {best}; {fall}{more}{self._minor}{self._bounds}."
                 return f"The model lacks {names}{beside} ({chance}); {fall}{more}{self._minor}{self._bounds}."
             case "instrument":
                 return f"A gauge is at fault: {names}{beside} ({chance}); {fall}{self._minor}{self._bounds}."

@@ -68,6 +68,11 @@ class Verdict:
     findings: tuple[EffectFinding, ...]
     unknown_beside: bool = False
 
+    @property
+    def is_doubtful(self) -> bool:
+        """Whether the names, all together, are more likely wrong than right."""
+        return self.kind == "named" and self.probability < EVEN_ODDS
+
 
 def compute_explained_share_of_base(origin: Hypothesis, found: Hypothesis, relation: str = "") -> float:
     """Return share of what the base left above the noise that a hypothesis takes away, in one balance or all [1]."""

@@ -97,6 +97,8 @@ def _headline(found: Diagnosis) -> str:
     names = ", ".join(found.verdict.effects)
     if kind == "complete" and found.verdict.minor:
         return "Nothing that matters is missing"
+    if found.verdict.is_doubtful:
+        return f"Something is missing; nearest: {names}"
     if kind == "named" and len(found.verdict.effects) > 1:
         return f"{in_words(len(found.verdict.effects)).capitalize()} effects are missing: {names}"
     return _HEADLINES[kind] + (f": {names}" if names else "")

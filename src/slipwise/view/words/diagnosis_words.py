@@ -89,6 +89,8 @@ def _next_words(found: Diagnosis) -> str:
             return "`slipwise discover` looks for its law."
         case "complete":
             return "Nothing: the model may be used as far as these motions go."
+    if found.verdict.is_doubtful:
+        return "Another run before anything is built on it: `slipwise next CAMPAIGN` says which motion would tell most."
     return f"Put it into the model: `slipwise diagnose CAMPAIGN --accept`. Then: {found.left_over}."
 
 

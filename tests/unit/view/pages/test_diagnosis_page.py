@@ -16,6 +16,7 @@ from slipwise.view.figures.diagnosis_figures import balances_figure, ladder_figu
 from slipwise.view.figures.style import styled
 from slipwise.view.pages.diagnosis_effects import size_rows
 from slipwise.view.pages.diagnosis_page import diagnosis_page
+from slipwise.view.words.diagnosis_words import four_answers
 from slipwise.view.words.numbers import counted, in_words
 
 NAN = float("nan")
@@ -54,6 +55,16 @@ def test_what_parts_the_rivals_comes_first_and_once():
     assert first.startswith(parts) and text.count(parts) == 1
     assert "heating instead of run_in" not in text
     assert catalogue()["run_in"].confused_with["buffer_softening"] in text
+
+
+def test_a_name_that_is_more_likely_wrong_than_right_is_no_instruction_to_build_on_it():
+    sure = _found("heating", kind="named")
+    doubtful = replace(sure, verdict=replace(sure.verdict, probability=0.1))
+    assert "The model lacks heating" in sure.sentence and "--accept" in dict(four_answers(sure))["What next?"]
+    said = doubtful.sentence
+    assert said.startswith("Something is missing. The best account of it, heating, is more likely wrong")
+    assert "(10 %)" in said and "slipwise next" in dict(four_answers(doubtful))["What next?"]
+    assert "Something is missing; nearest: heating<" in diagnosis_page(doubtful)
 
 
 def test_nothing_is_called_held_out_where_every_run_was_fitted():
