@@ -116,7 +116,7 @@ def save_model(model: Model, path: Path | str) -> None:
             _append(document, wanted, _file_of(wanted.effect, path))
     if not model.uses:
         document.pop("effect", None)  # an empty list would be no table of [[effect]]
-    write_text(path, tomlkit.dumps(document))
+    write_text(path, _separate(tomlkit.dumps(document)))
 
 
 def _name_rig(specimen: Specimen, folder: Path) -> str:
@@ -177,11 +177,22 @@ def _file_of(effect: Effect, path: Path) -> str:
 
 def _append(document: tomlkit.TOMLDocument, wanted: EffectUse, file: str) -> None:
     if "effect" not in document:
-        document.add(tomlkit.nl())
         document["effect"] = tomlkit.aot()
-    elif not tomlkit.dumps(document).endswith("\n\n"):
-        _entries(document)[-1].add(tomlkit.nl())
+    else:
+        _entries(document)[-1].add(tomlkit.nl())  # the last line of a file may not have ended
     _entries(document).append(new_entry(wanted, file))
+
+
+def _separate(text: str) -> str:
+    """Return a file's text with one blank line before each effect; a comment right above one stays there."""
+    lines: list[str] = []
+    for line in text.split("\n"):
+        if line.strip() == "[[effect]]" and not (lines and lines[-1].startswith("#")):
+            while lines and not lines[-1].strip():
+                lines.pop()
+            lines.append("")
+        lines.append(line)
+    return "\n".join(lines).rstrip() + "\n"
 
 
 def _write_specimen(document: tomlkit.TOMLDocument, known: Mapping[str, float | str]) -> None:

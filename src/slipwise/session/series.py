@@ -54,6 +54,11 @@ class Series:
         return self.measured - self.predicted
 
 
+def list_balances(objective: Objective) -> list[str]:
+    """Return the names of the balances that can be looked at."""
+    return list(dict.fromkeys(["pads", *objective.relations]))
+
+
 def series_of(objective: Objective, state: SessionState, residuals: Residuals, place: int, relation: str) -> Series:
     """Return one balance of one run.
 
@@ -62,7 +67,7 @@ def series_of(objective: Objective, state: SessionState, residuals: Residuals, p
         state: whose numbers.
         residuals: of the state.
         place: of the run.
-        relation: one of `objective.relations`, or "pads".
+        relation: one of `list_balances`.
     """
     run = objective.run(place)
     if relation == "pads" and not run.forces_measured:

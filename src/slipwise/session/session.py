@@ -25,7 +25,7 @@ from slipwise.session.findings import discovered, explained, suggested
 from slipwise.session.fitting import Progress, fit_state
 from slipwise.session.kept import Kept, resumed
 from slipwise.session.responses import RunReplay, replay_errors, replay_run
-from slipwise.session.series import Series, series_of
+from slipwise.session.series import Series, list_balances, series_of
 from slipwise.session.snapshot import Store
 from slipwise.session.sources import Sources
 from slipwise.session.state import SessionState, from_json
@@ -153,7 +153,7 @@ class Session(Drawn, Tabular):
         """
         state = state or self.state
         objective = self.ready.objective(state)
-        names, relations = objective.run_names, list(dict.fromkeys(["pads", *objective.relations]))
+        names, relations = objective.run_names, list_balances(objective)
         if run not in names or relation not in relations:
             raise SettingError(
                 f"no balance {relation!r} of run {run!r}; runs: {', '.join(names)}; balances: {', '.join(relations)}"

@@ -11,6 +11,7 @@ from slipwise.effects import Trust
 from slipwise.errors import OutputError, SettingError, SlipwiseError
 from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.session.responses import replayed_run
+from slipwise.session.series import list_balances
 from slipwise.session.session import Session
 from slipwise.session.state import as_json, from_json, named
 from slipwise.workbench.curves import View, curves_frame, measured_frame, shown_answer
@@ -115,8 +116,8 @@ class Room:
     async def look(self, page: Page, run: str, relation: str, beside: str, *, watches: bool = False) -> None:
         """Let a page look at something else."""
         names = [r.name for r in self.session.ready.runs]
-        relations = await self._do(lambda: self.session.ready.objective(self.session.state).relations)
-        if run in names and relation in ("pads", *relations):
+        balances = await self._do(lambda: list_balances(self.session.ready.objective(self.session.state)))
+        if run in names and relation in balances:
             page.view = View(run, relation, beside, watches)
             await self.show(page)
             await self._ask_for_watched()

@@ -60,6 +60,20 @@ def test_a_new_file_of_the_base_model_is_that_model_to_the_last_bit(tmp_path: Pa
         assert load_model(tmp_path / f"{rig}.toml") == base_model(rig)
 
 
+@pytest.mark.parametrize("end", ["", "\n", "\n\n\n"])
+def test_one_blank_line_stands_before_each_effect_however_the_file_ended(end: str, tmp_path: Path) -> None:
+    path, model = tmp_path / "model.toml", base_model("bridge1")
+    save_model(model, path)
+    new = path.read_text(encoding="utf-8")
+    assert new.count("\n\n[[effect]]\n") == new.count("[[effect]]") and "\n\n\n" not in new
+    commented = new.rstrip().replace("[[effect]]", "# as it was bought\n[[effect]]", 1)
+    path.write_text(commented + end, encoding="utf-8")
+    save_model(model.adding(use("heating"), use("buffer_damping")), path)
+    text = path.read_text(encoding="utf-8")
+    assert text.count("\n\n[[effect]]\n") == text.count("[[effect]]") - 1 and "\n\n\n" not in text
+    assert "# as it was bought\n[[effect]]\n" in text and not text.endswith("\n\n")
+
+
 def test_a_rig_of_ones_own_that_has_the_name_of_one_of_the_package_is_written_as_ones_own(tmp_path: Path) -> None:
     own = shutil.copy(load_specimen("building").path, tmp_path / "building.xml")
     model = base_model(own, ())
