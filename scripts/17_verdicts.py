@@ -25,6 +25,8 @@ from typing import Any
 from slipwise.diagnosis.diagnose import diagnose
 from slipwise.diagnosis.verdict import evidence_of, evidence_of_rest, list_shares_of_limit
 from slipwise.errors import SlipwiseError
+from slipwise.evidence.calibration import compute_log_odds, load_calibration
+from slipwise_benchmarks.evidence import decide_by_product
 from slipwise_benchmarks.families import FAMILIES
 from slipwise_benchmarks.family_score import accused, missed, right
 from slipwise_benchmarks.family_store import make, orders
@@ -46,7 +48,7 @@ def verdict_of(folder: Path) -> dict[str, Any]:
     said, state = found.verdict, found.search
     surface = said.surface
     rest = evidence_of_rest(state.path[0], state.final, surface, state.unexplained, list_shares_of_limit(state))
-    return {
+    row = {
         "verdict": said.kind,
         "effects": list(said.effects),
         "minor": list(said.minor),
@@ -66,6 +68,8 @@ def verdict_of(folder: Path) -> dict[str, Any]:
         "errors": [float(f"{e:.4g}") for e in (found.base_error, found.final_error)],
         "seconds": round(time.perf_counter() - began, 1),
     }
+    product = decide_by_product(row, load_calibration()).probability
+    return {**row, "product": round(compute_log_odds(product), 3)}
 
 
 def rounded(numbers: Mapping[str, float]) -> dict[str, float]:

@@ -4,13 +4,15 @@
     python scripts/17_verdicts.py --out out/families
     python scripts/calibrate.py out/families
     python scripts/calibrate.py out/families --check    # writes nothing
+    python scripts/calibrate.py --whole benchmarks/results/verdicts.jsonl
 
 Each model is a logistic regression in a few numbers (ridge 1 on numbers of unit spread, signs of the weights held to
-what more of a number can only mean): whether an effect that was found is there, whether its size is what the posterior
-says, whether effects are of the right family whatever they leave, and whether all of a verdict is right, by the product
-of these. That last one is fitted to verdicts that models of other campaigns have made (in five parts, the two makers'
-campaigns of a seed in one), or it would be told how well the others remember. Families that are held out take no part;
-what the models say of them is printed apart.
+what more of a number can only mean): whether an effect that was found is there, whether its size is what the
+posterior says, whether effects are of the right family whatever they leave, and whether all of a verdict is right, by
+the product of these and by the floors that names leave. That last one is fitted to verdicts that models of other
+campaigns have made (in five parts, the two makers' campaigns of a seed in one), or it would be told how well the
+others remember; `--whole` fits it alone to kept verdicts of campaigns that the other models have not seen. Families
+that are held out take no part; what the models say of them is printed apart.
 
 Printed are, of verdicts by models that have not seen them: how many are right, the Brier score, and how often claims of
 each fifth come true.
@@ -32,16 +34,18 @@ from sklearn.isotonic import IsotonicRegression
 from slipwise.arrays import Array
 from slipwise.campaign.materiality import Materiality
 from slipwise.evidence.calibration import Calibration, Logistic, compute_log_odds
-from slipwise.evidence.decision import decide, is_left
+from slipwise.evidence.decision import is_left
+from slipwise_benchmarks.evidence import PRODUCT, decide_by_product
 from slipwise_benchmarks.family_score import may_be_named, right
 
 OUT = Path(__file__).parents[1] / "src" / "slipwise" / "evidence" / "calibration.json"
 PRESENT = ("lead", "share", "stays", "gauge", "inclusion", "spread", "seen", "beside", "left")
 MATTERS = ("spread", "gauge", "lead", "beside", "left")
 FAMILY = ("explained", "left", "relative")
+WHOLE = ("product", "floors")
 #: Numbers of which more can only make a claim likelier, or less likely: a few campaigns must not say the opposite.
 WAYS = {name: (0.0, None) for name in ("lead", "share", "stays", "inclusion", "seen", "explained", "product")}
-WAYS |= {name: (None, 0.0) for name in ("spread", "beside", "left", "relative")}
+WAYS |= {name: (None, 0.0) for name in ("spread", "beside", "left", "relative", "floors")}
 PARTS, FIFTHS = 5, 5
 #: Fewer cases of either kind leave a model as it was.
 LEAST = 5
@@ -117,29 +121,30 @@ def parts_fitted(rows: Sequence[Row], before: Calibration) -> Calibration:
         fitted(over(cases_of_matter), MATTERS, before.matters),
         fitted(over(cases_of_family), FAMILY, before.right_family),
         before.leads_rival,
-        Logistic(0.0, {"product": 1.0}),
+        before.all_right,
     )
 
 
-def said_by(row: Row, chances: Calibration) -> tuple[float, bool, bool]:
-    """Give what a calibration would say of a campaign: the probability, whether it is right, whether it is unknown."""
-    of = {name: one for name, one in row["evidence"].items() if name not in row["at_limit"]}
-    decided = decide(of, row["rest"], Materiality().channel, chances)
+def said_by(row: Row, parts: Calibration) -> tuple[Case, bool]:
+    """Give what the parts of a calibration say of a campaign, whether that is right, and whether it is unknown."""
+    decided = decide_by_product(row, parts)
     faults = [name for name in row["effects"] if name not in row["evidence"]]
     left = is_left(row["rest"], Materiality().channel)
     said = {"verdict": decided.kind, "effects": [*decided.named, *faults], "minor": decided.minor}
     said["leftover"] = "unknown" if decided.named and left else ""
-    return decided.probability, right(row["answer"], said), decided.kind == "unknown"
+    floors = row["rest"]["floors"] if decided.named else 0.0
+    product = {"product": compute_log_odds(decided.probability), "floors": floors}
+    return (product, right(row["answer"], said)), decided.kind == "unknown"
 
 
-def by_others(rows: Sequence[Row], before: Calibration) -> list[tuple[Row, float, bool, bool]]:
+def by_others(rows: Sequence[Row], before: Calibration) -> list[tuple[Case, bool]]:
     """Give what models fitted to other groups say of every campaign."""
     groups = sorted({row["group"] for row in rows})
     out = []
     for part in range(PARTS):
         own = set(groups[part::PARTS])
         chances = parts_fitted([row for row in rows if row["group"] not in own], before)
-        out += [(row, *said_by(row, chances)) for row in rows if row["group"] in own]
+        out += [said_by(row, chances) for row in rows if row["group"] in own]
     return out
 
 
@@ -172,29 +177,58 @@ def report(said: Sequence[tuple[float, bool]], what: str) -> None:
             print(line)
 
 
+def chances_of(said: Sequence[tuple[Case, bool]], whole: Logistic) -> list[tuple[float, bool]]:
+    """Give the chance of every verdict, and whether it is right; of unknown the parts say it."""
+    return [((PRODUCT if unknown else whole)(of), good) for (of, good), unknown in said]
+
+
+def read_kept(file: Path) -> list[tuple[Case, bool]]:
+    """Give what kept verdicts said of campaigns, whether it was right, and whether it was unknown."""
+    rows = [row for row in map(json.loads, file.read_text(encoding="utf-8").splitlines()) if "product" in row]
+    out = []
+    for row in rows:
+        named = row["verdict"] in ("named", "ambiguous", "instrument")
+        of = {"product": row["product"], "floors": float(np.log(max(1.0, row["final_error"]))) if named else 0.0}
+        out.append(((of, row["right"]), row["verdict"] == "unknown"))
+    return out
+
+
 def main() -> None:
     """Read verdicts, fit, write."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="with verdicts.jsonl and answers, of 17_verdicts.py")
+    parser.add_argument(
+        "source", type=Path, help="a folder with verdicts.jsonl and answers, of 17_verdicts.py, or a file"
+    )
+    parser.add_argument("--whole", action="store_true", help="fit the last model alone, to a file of kept verdicts")
     parser.add_argument("--check", action="store_true", help="write nothing")
     chosen = parser.parse_args()
-    every = read(chosen.folder)
-    rows = [row for row in every if not row["answer"]["held_out_family"]]
     content = json.loads(OUT.read_text(encoding="utf-8"))
     before = Calibration(**{n: Logistic(of["constant"], of["weights"]) for n, of in content["models"].items()})
-    whole = by_others(rows, before)
-    products: list[Case] = [({"product": compute_log_odds(p)}, g) for _, p, g, unknown in whole if not unknown]
-    chances = parts_fitted(rows, before)
-    chances = replace(chances, all_right=fitted(products, ("product",), before.all_right))
-    report([(p if unknown else chances.whole(p), g) for _, p, g, unknown in whole], "by models of other campaigns")
-    held = [(row, *said_by(row, chances)) for row in every if row["answer"]["held_out_family"]]
-    report([(p, g) for _, p, g, _ in held], "families held out")
-    kept = [name for name, model in vars(chances).items() if model is getattr(before, name)]
-    seeds = sorted(row["answer"]["seed"] for row in rows)
-    content["provenance"] = (
-        f"{len(rows)} campaigns of the families, seeds {seeds[0]} to {seeds[-1]}, {datetime.now(UTC):%Y-%m-%d}; "
-        f"scripts/calibrate.py; too few cases, chosen by judgement: {', '.join(kept) or 'none'}"
-    )
+    today = f"{datetime.now(UTC):%Y-%m-%d}"
+    if chosen.whole:
+        said = read_kept(chosen.source)
+        cases = [case for case, unknown in said if not unknown]
+        chances = replace(before, all_right=fitted(cases, WHOLE, before.all_right))
+        report(chances_of(said, before.all_right), "as before")
+        report(chances_of(said, chances.all_right), "fitted to them")
+        content["provenance_of_all_right"] = f"{len(cases)} verdicts of {chosen.source}, {today}; scripts/calibrate.py"
+    else:
+        every = read(chosen.source)
+        rows = [row for row in every if not row["answer"]["held_out_family"]]
+        said = by_others(rows, before)
+        chances = parts_fitted(rows, before)
+        whole = fitted([case for case, unknown in said if not unknown], WHOLE, before.all_right)
+        chances = replace(chances, all_right=whole)
+        report(chances_of(said, whole), "by models of other campaigns")
+        held = [said_by(row, chances) for row in every if row["answer"]["held_out_family"]]
+        report(chances_of(held, whole), "families held out")
+        kept = [name for name, model in vars(chances).items() if model is getattr(before, name)]
+        seeds = sorted(row["answer"]["seed"] for row in rows)
+        content["provenance"] = (
+            f"{len(rows)} campaigns of the families, seeds {seeds[0]} to {seeds[-1]}, {today}; "
+            f"scripts/calibrate.py; too few cases, chosen by judgement: {', '.join(kept) or 'none'}"
+        )
+        content["provenance_of_all_right"] = "as the others"
     content["models"] = {n: {"constant": m.constant, "weights": m.weights} for n, m in vars(chances).items()}
     print(json.dumps(content, indent=1))
     if not chosen.check:

@@ -18,6 +18,7 @@ from slipwise.evidence.acceptance import LEAST
 from slipwise.evidence.calibration import load_calibration
 from slipwise.evidence.decision import EVEN_ODDS, decide, is_left
 from slipwise.evidence.prior import Prior
+from slipwise.evidence.residual_summary import get_error
 from slipwise.evidence.score import compute_relative_drop
 from slipwise.instruments.suspects import effect_of
 from slipwise.preparation.sample_fault import SampleFault
@@ -191,6 +192,7 @@ def evidence_of_rest(
         "left": surface.explained if surface else 0.0,
         "relative": float(np.log(max(over[where], 1e-6))),
         "limit": float(np.log(of_limit.get(where, 1.0))),
+        "floors": float(np.log(max(1.0, *(get_error(final.summary, r) for r in final.summary.fitted)))),
     }
 
 

@@ -12,6 +12,9 @@ from importlib.resources import files
 import numpy as np
 from scipy.special import expit
 
+#: No chance is smaller or larger [1].
+_SUREST = (0.01, 0.99)
+
 
 @dataclass(frozen=True)
 class Logistic:
@@ -28,7 +31,7 @@ class Logistic:
     def __call__(self, evidence: Mapping[str, float]) -> float:
         """Return the probability; numbers that the model does not use are passed over."""
         odds = self.constant + sum(weight * evidence[name] for name, weight in self.weights.items())
-        return float(np.clip(expit(odds), 0.01, 0.99))
+        return float(np.clip(expit(odds), *_SUREST))
 
 
 @dataclass(frozen=True)
@@ -40,7 +43,8 @@ class Calibration:
         matters: of an effect that was found: that it is there with the size that the posterior says.
         right_family: of effects that leave something with structure: that they are of the right family all the same.
         leads_rival: of a hypothesis: that it and not its nearest rival is right, by how many standard errors it leads.
-        all_right: of a verdict, by the product of these chances: they are not independent.
+        all_right: of a verdict, by the product of these chances, which are not independent, and by what names leave:
+            an error above the floor says that something is not as they say.
     """
 
     present: Logistic
@@ -57,9 +61,14 @@ class Calibration:
         """Return the chance that a hypothesis is right and not its nearest rival."""
         return self.leads_rival({"lead": errors})
 
-    def whole(self, product: float) -> float:
-        """Return the chance that a verdict is right, by the product of the chances of its parts."""
-        return self.all_right({"product": compute_log_odds(product)})
+    def whole(self, product: float, floors: float) -> float:
+        """Return the chance that a verdict is right.
+
+        Args:
+            product: of the chances of its parts.
+            floors: logarithm of the error that the named effects leave [noise floors]; 0 where nothing is named.
+        """
+        return self.all_right({"product": compute_log_odds(float(np.clip(product, *_SUREST))), "floors": floors})
 
 
 def compute_log_odds(probability: float) -> float:

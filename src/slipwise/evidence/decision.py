@@ -71,7 +71,8 @@ def decide(
             by which the nearest rival is behind).
         rest: evidence on what is left: "relative" (logarithm of its share of what a balance is made of), "limit"
             (logarithm of the share that a law of one limit leaves there as a rule; 0 where that is not known), "left"
-            (share of it that has structure: then an effect may only stand for another law) and so on.
+            (share of it that has structure: then an effect may only stand for another law), "floors" (logarithm of the
+            error [noise floors]) and so on.
         least: share of a balance that matters [1].
         chances: the calibration.
     """
@@ -87,7 +88,7 @@ def decide(
     right = max(exact, 1.0 - exact)
     for name in effects:  # what is not named would be wrong only if it were there and mattered
         right *= both[name] if name in named else 1.0 - both[name]
-    probability = chances.whole(right)
+    probability = chances.whole(right, rest["floors"] if named else 0.0)
     if not named:
         return Decision("complete", (), minor, (), False, probability)
     tied = tuple(name for name in named if chances.leads(effects[name]["rival"]) < EVEN_ODDS)

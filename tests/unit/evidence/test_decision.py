@@ -17,7 +17,7 @@ PLAIN = Calibration(
     all_right=Logistic(0.0, {"product": 1.0}),
 )
 LEAST = 0.02
-NOTHING = {"relative": np.log(0.001), "family": 0.0, "left": 0.0}
+NOTHING = {"relative": np.log(0.001), "family": 0.0, "left": 0.0, "floors": 0.0}
 SURE = 4.0
 
 
@@ -27,7 +27,7 @@ def effect(present: float = SURE, matters: float = SURE, gauge: float = 0.0, riv
 
 
 def left(share: float, family: float) -> dict[str, float]:
-    return {"relative": np.log(share), "family": family, "left": 0.0}
+    return {"relative": np.log(share), "family": family, "left": 0.0, "floors": 0.0}
 
 
 def test_a_model_is_complete_where_nothing_is_found_and_nothing_is_left() -> None:
