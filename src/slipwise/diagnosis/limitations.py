@@ -66,7 +66,7 @@ def list_limitations(state: Search, final: BaseFit, faults: Sequence[SampleFault
         *_alike(state, rows, project),
         *_rests_not_given(state),
         *_zero_not_shown(state, final),
-        *_nothing_held_out(state.base),
+        *_nothing_held_out(state),
         *_storeys_not_measured(state.base),
         *_turning_not_measured(state.base),
         *_friction_across_not_measured(state.base),
@@ -243,9 +243,9 @@ def _goes_on(before: Run, after: Run) -> bool:
     return abs(after.window[0] - before.window[1]) < 2.0 * after.record.dt
 
 
-def _nothing_held_out(base: BaseFit) -> Iterator[tuple[str, str]]:
-    if not base.objective.held_out:
-        yield "verdict", "no run is held out, so what was found was judged on the runs that were fitted"
+def _nothing_held_out(state: Search) -> Iterator[tuple[str, str]]:
+    if not state.path[0].summary.judged_apart:
+        yield "verdict", "no run outside the fit can be judged, so what was found was judged on the runs that were fitted"
 
 
 def _gauges_not_tried(state: Search) -> Iterator[tuple[str, str]]:

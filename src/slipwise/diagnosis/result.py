@@ -129,8 +129,8 @@ class Diagnosis(Drawn, Tabular):
 
     @property
     def held_out(self) -> bool:
-        """Whether the campaign has a run that no fit has seen."""
-        return bool(self.search.base.objective.held_out)
+        """Whether the campaign has a run that no fit has seen and that could be judged."""
+        return self.search.path[0].summary.judged_apart
 
     @property
     def model(self) -> Model:
@@ -208,7 +208,7 @@ class Diagnosis(Drawn, Tabular):
         """The verdict in one sentence."""
         chance = f"{100 * self.verdict.probability:.0f} %"
         names = " and ".join(self.verdict.effects)
-        error = "held-out error" if self.search.base.objective.held_out else "error on the runs that were fitted"
+        error = "held-out error" if self.held_out else "error on the runs that were fitted"
         before, base = _short(self.recorded_error), _short(self.base_error)
         before += f" as recorded, {base} with what is wrong in the records put right" if before != base else ""
         fall = f"{error} {before} -> {_short(self.final_error)} times the noise floor"

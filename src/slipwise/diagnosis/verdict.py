@@ -109,7 +109,7 @@ def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materi
     if named and _explains_little(origin, final) and is_left(rest, limits.channel):
         kind, named, probability = "unknown", (), max(1.0 - probability, EVEN_ODDS)
     if kind != "unknown":
-        probability *= _chance_that_nothing_hides(state, named) * (1.0 if origin.objective.held_out else _UNCONFIRMED)
+        probability *= _chance_that_nothing_hides(state, named) * (1.0 if origin.summary.judged_apart else _UNCONFIRMED)
     nameless = any(f.at_limit and f.material >= 1.0 for f in found)
     verdict = Verdict(
         kind,

@@ -39,6 +39,11 @@ class ResidualSummary:
     constants: int
     blocks: dict[str, Array]
 
+    @property
+    def judged_apart(self) -> bool:
+        """Whether any sample that was not fitted is judged: there may be no such run, or its gauges were dead."""
+        return any(apart for _, apart in self.counts.values())
+
     def fitted_level(self, relation: str) -> float:
         """Return the mean squared residual of a relation on the fitted runs in units of the noise's variance."""
         return self.fitted[relation] / max(self.counts[relation][0], 1)

@@ -140,8 +140,13 @@ class Answer:
 
 
 def choose_shown(final: BaseFit) -> int:
-    """Return the place of the run whose answer tells what matters: the held-out one, else the last that is fitted."""
-    return [*final.objective.held_out, *final.objective.fitted[-1:]][0]
+    """Return the place of the run whose answer tells what matters: the first held-out one in which anything is judged.
+
+    It is the last one that is fitted where no held-out run is: the gauges may be dead in all of them.
+    """
+    objective, left = final.objective, final.solution.residuals
+    judged = [i for i in objective.held_out if any(left.count(relation, [i]) for relation in objective.relations)]
+    return [*judged, *objective.fitted[-1:]][0]
 
 
 def build_answering_model(final: BaseFit) -> Model:
@@ -260,8 +265,9 @@ def _driven(model: Model, final: BaseFit, place: int) -> Answer:
 
 def compute_share_of_channel(change: Array, measured: Array) -> float:
     """Return the rms of a change (n,) over the rms of the measured channel (n,) about its mean [1]; 0 if it stands."""
-    size = float(np.std(measured))
-    return float(np.sqrt(np.mean(change**2)) / size) if size > 0.0 else 0.0
+    if np.ptp(measured) == 0.0:  # the deviation of equal numbers is round-off, no zero
+        return 0.0
+    return float(np.sqrt(np.mean(change**2)) / np.std(measured))
 
 
 def _change(value: float, spread: float) -> Change:

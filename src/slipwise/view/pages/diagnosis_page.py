@@ -108,7 +108,7 @@ def _evidence(found: Diagnosis) -> Section:
     if found.held_out:
         where, errors, run = "runs that no fit has seen", "Held-out error of every balance", "a held-out run"
     else:
-        where, run = "the runs that were fitted (the campaign keeps none back)", "a run that was fitted"
+        where, run = "the runs that were fitted (no other can be judged)", "a run that was fitted"
         errors = "Error of every balance on the runs that were fitted"
     return Section(
         "The evidence",

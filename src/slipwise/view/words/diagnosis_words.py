@@ -29,7 +29,7 @@ def confirmed_words(found: Diagnosis) -> str:
     if not weighed(found.verdict):
         return ""
     if not found.held_out:
-        return "Not confirmed: no run is held out, so every run has taken part in the fit."
+        return "Not confirmed: no run outside the fit can be judged; what was found rests on the runs that were fitted."
     runs = " and ".join(run.name for run in found.final.campaign.with_role("holdout"))
     whole = _whole_words(found)
     if found.confirmed is None:

@@ -40,7 +40,7 @@ def test_the_error_over_all_samples_is_told_where_stretches_were_judged():
 
 def test_without_held_out_runs_nothing_is_called_confirmed_or_held_out():
     found = _found("heating", held_out=False)
-    assert confirmed_words(found).startswith("Not confirmed: no run is held out")
+    assert confirmed_words(found).startswith("Not confirmed: no run outside the fit")
     assert (error_name(found), error_name(_found("heating"))) == ("error of fitted runs", "held-out error")
 
 
