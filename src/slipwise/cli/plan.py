@@ -23,7 +23,7 @@ def plan(
     ] = None,
     gauges: Annotated[
         list[str] | None,
-        typer.Option(help="Planned channels, e.g. 'pad_*_N,pad_*_Fx,slip_x'; the rig's usual ones if not given."),
+        typer.Option(help="Planned channels, e.g. `'pad_*_N,pad_*_Fx,slip_x'`; the rig's usual ones if not given."),
     ] = None,
     budget: Annotated[int | None, typer.Option(help="Give the best set of gauges within so many channels.")] = None,
     rate: Annotated[str | None, typer.Option(help="Rate of the samples [500 Hz].")] = None,

@@ -245,7 +245,10 @@ def _goes_on(before: Run, after: Run) -> bool:
 
 def _nothing_held_out(state: Search) -> Iterator[tuple[str, str]]:
     if not state.path[0].summary.judged_apart:
-        yield "verdict", "no run outside the fit can be judged, so what was found was judged on the runs that were fitted"
+        yield (
+            "verdict",
+            "no run outside the fit can be judged, so what was found rests on the runs that were fitted",
+        )
 
 
 def _gauges_not_tried(state: Search) -> Iterator[tuple[str, str]]:

@@ -1,5 +1,6 @@
 """Free replays of models before and after: for the viewer, and their errors."""
 
+import dataclasses
 from collections.abc import Callable, Collection, Sequence
 
 import numpy as np
@@ -40,7 +41,10 @@ def replays(base: BaseFit, final: BaseFit, added: Sequence[str]) -> tuple[Record
 
     def shake(model: Model) -> Record:
         dt = choose_simulation_step(states.dt, model.built_specimen())
-        return replay(model, motion, dt=dt, output_dt=states.dt).record
+        shaken = replay(model, motion, dt=dt, output_dt=states.dt).record
+        return dataclasses.replace(
+            shaken, time=shaken.time - shaken.time[0] + states.record.time[0]
+        )  # as the gauges' clock
 
     return states.record, [(label, shake(_mechanics(fit))) for label, fit in models]
 

@@ -259,6 +259,7 @@ class Diagnosis(Drawn, Tabular):
         return {
             "schema": SCHEMA,
             "campaign": self.campaign,
+            "rig": self.final.campaign.specimen.name,
             "verdict": verdict.kind,
             "effects": list(verdict.effects),
             "minor": list(verdict.minor),

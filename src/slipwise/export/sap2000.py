@@ -210,7 +210,12 @@ def _springs(model: Model, record: Record) -> list[SpringLink]:
 
 
 def _check_pads(model: Model, campaign: Campaign) -> None:
-    """Refuse a campaign of other pads than the model's."""
+    """Refuse a campaign of another rig, or of other pads, than the model's."""
+    if campaign.specimen.name != model.specimen.name:
+        raise SettingError(
+            f"the model is of {model.specimen.name}, the campaign of {campaign.specimen.name}; give the model that was "
+            "fitted to it, for masses and buffers are of the one and pressures of the other"
+        )
     if set(campaign.specimen.pads) != set(model.specimen.pads):
         raise SettingError(
             f"the model is of {model.specimen.name} with the pads {', '.join(model.specimen.pads)}, the campaign of "

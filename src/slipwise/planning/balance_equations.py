@@ -80,6 +80,12 @@ class BalanceEquations:
         return {**self.unknowns, **read}
 
 
+def keep_laws_of_pads(equations: BalanceEquations) -> BalanceEquations:
+    """Return the laws of the pads alone, the girder taken not to turn: all that is left without its balances."""
+    laws = {name: of - {"yaw"} for name, of in equations.unknowns.items() if name.startswith("pad ")}
+    return replace(equations, unknowns=laws)
+
+
 def list_equations(specimen: Specimen) -> BalanceEquations:
     """Return the equations of a rig: of one slider whose slip is prescribed, the law of friction alone."""
     out: dict[str, set[str]] = {}

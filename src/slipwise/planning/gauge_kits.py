@@ -96,6 +96,18 @@ def list_remedies(planned: Structure, kits: Sequence[Kit], judge: Callable[[Sequ
     return out
 
 
+def keep_judged(specimen: Specimen, channels: Sequence[str]) -> tuple[str, ...]:
+    """Return the channels that a diagnosis looks at: with cells on some pads only, these pads alone.
+
+    Balances of a girder ask for a quantity on every pad, or on none: then it follows from inertia.
+    """
+    kinds = [[f"pad_{pad}_{kind}" for pad in specimen.pads] for kind in ("N", "Fx")]
+    if not specimen.free or all(set(cells) <= set(channels) or not set(cells) & set(channels) for cells in kinds):
+        return tuple(channels)
+    whole = [pair for pair in zip(*kinds, strict=True) if set(pair) <= set(channels)]
+    return tuple(c for c in channels if c == "slip_x" or any(c in pair for pair in whole))
+
+
 def list_sets(specimen: Specimen, kits: Sequence[Kit], budget: int) -> Iterator[tuple[str, ...]]:
     """Yield sets of channels within a budget, with what every fit needs: slip, and load and friction of a pad.
 

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,9 +16,9 @@ from slipwise.model import Model, base_model
 from slipwise.model.file import as_model
 from slipwise.motion import TableMotion
 from slipwise.motion.load import as_motion
-from slipwise.planning.balance_equations import BalanceEquations, list_equations
+from slipwise.planning.balance_equations import BalanceEquations, keep_laws_of_pads, list_equations
 from slipwise.planning.chances import Chance, RankedMotion, compute_chances, rank_motions
-from slipwise.planning.gauge_kits import Kit, Remedy, choose_set, list_kits, list_remedies, list_sets
+from slipwise.planning.gauge_kits import Kit, Remedy, choose_set, keep_judged, list_kits, list_remedies, list_sets
 from slipwise.planning.planned_columns import PlannedColumns, compute_planned_columns, find_allowed
 from slipwise.planning.planned_runs import PlannedRuns, list_recorded_motions, replay_planned
 from slipwise.planning.result import GaugeSet, PlannedTest
@@ -78,7 +79,9 @@ def plan(
     faults, untestable = list_faults(equations, every, effects)
 
     def judge(channels: Sequence[str]) -> Structure:
-        return compute_structure(equations, faults, channels)
+        judged = keep_judged(specimen, channels)
+        own = equations if len(judged) == len(channels) else keep_laws_of_pads(equations)
+        return replace(compute_structure(own, faults, judged), channels=tuple(channels))
 
     tell("balances", 0.0)
     notes: list[str] = []
@@ -88,6 +91,12 @@ def plan(
     unused = tuple(c for c in channels if not equations.measured_by(c))
     used = _refuse_useless([c for c in channels if c not in unused], channels, equations)
     planned = judge(used)
+    unjudged = [c for c in used if c not in keep_judged(specimen, used)]
+    if unjudged:
+        notes.append(
+            f"{', '.join(unjudged)}: nothing is made of them, for no balance of the girder can be made where the load "
+            "or the friction is measured on some pads only; measure it on all of them, or on none."
+        )
     remedies = list_remedies(planned, kits, judge)
     structures = _list_structures(planned, remedies, best, judge, specimen, kits)
     sets = [GaugeSet(words, structure) for words, structure in structures.items()]

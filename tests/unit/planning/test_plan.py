@@ -84,6 +84,17 @@ def test_gauges_that_no_balance_uses_are_named_and_alone_refused():
         sw.plan("bridge1", gauges=["pad_A_T"])
 
 
+def test_cells_on_some_pads_only_make_no_balance_and_that_is_said():
+    channels = ["slip_x", "pad_A_N", "pad_*_Fx", "girder_ax", "girder_az", "table_ax", "table_az"]
+    some = sw.plan("bridge1", (), channels)
+    assert any("pad_D_Fx, girder_ax" in note and "on some pads only" in note for note in some.notes)
+    unseen = {"buffer", "guide_drag", "key_friction", "table_pitch", "uneven_seating"}
+    assert unseen <= set(some.planned.structure.unseen) and "pad friction" not in some.planned.structure.unseen
+    every = sw.plan("bridge1", (), [*channels, "pad_*_N"])
+    assert not unseen & set(every.planned.structure.unseen)
+    assert not any("some pads only" in note for note in every.notes)
+
+
 def test_a_prescribed_slip_is_judged_by_its_balances_alone():
     found = sw.plan("pad", [MOTION])
     assert "prescribed" in found.notes[0] and not found.planned.chances

@@ -17,7 +17,8 @@ def diagnosis(folder, effects=("run_in",), **sizes):
     """A diagnosis.json as `slipwise diagnose` writes it, as far as it is read."""
     entries = {key: dict(zip(("value", "low", "high"), numbers, strict=True)) for key, numbers in sizes.items()}
     best = {"effect": " + ".join(effects), "parameters": {k.replace("__", "."): v for k, v in entries.items()}}
-    (folder / "diagnosis.json").write_text(json.dumps({"effects": list(effects), "candidates": [best]}))
+    content = {"rig": "bridge2", "effects": list(effects), "candidates": [best]}
+    (folder / "diagnosis.json").write_text(json.dumps(content))
     return folder
 
 
@@ -32,6 +33,7 @@ def found(tmp_path_factory):
 def test_a_named_effect_that_the_model_lacks_is_put_in_and_its_size_drawn(found):
     assert found.named == ("run_in",) and [v.key for v in found.drawn] == ["run_in.rise"]
     notes = " ".join(found.notes)
+    assert "is of bridge2: what was found there is put on bridge1" in notes
     assert "put in at the size of diagnosis.json" in notes and "run_in.distance has no interval" in notes
     rows = pq.read_table(found.path).to_pylist()
     assert [row["model"] for row in rows] == ["without", "with"] * 4

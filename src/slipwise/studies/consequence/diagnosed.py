@@ -19,11 +19,13 @@ class Diagnosed:
 
     Attributes:
         path: of the file.
+        rig: on which it was found; "" in a file that does not say so.
         effects: labels of what was named.
         sizes: label.parameter -> value, low, high [SI]; low and high are None where there is no interval.
     """
 
     path: Path
+    rig: str
     effects: tuple[str, ...]
     sizes: Mapping[str, tuple[float, float | None, float | None]]
 
@@ -47,7 +49,8 @@ def read_diagnosis(place: Path | str) -> Diagnosed:
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise InputError(f"{path}: this is no diagnosis.json of this version ({error!r})") from None
     # an ambiguous verdict names all rivals: the best explanation is taken, which is the first candidate
-    return Diagnosed(path, tuple(label for label in found if label.split("[")[0] in names or label in names), sizes)
+    named = tuple(label for label in found if label.split("[")[0] in names or label in names)
+    return Diagnosed(path, str(content.get("rig", "")), named, sizes)
 
 
 def _size(entry: Mapping[str, Any]) -> tuple[float, float | None, float | None]:

@@ -128,6 +128,8 @@ def judge_consequence(
     folder, notes = Path(folder), list[str]()
     found = None if diagnosis is None else read_diagnosis(diagnosis)
     whole, named = _whole_model(as_model(model), found, tuple(without), notes)
+    if found is not None and found.rig not in ("", whole.specimen.name):
+        notes.append(f"{found.path} is of {found.rig}: what was found there is put on {whole.specimen.name}")
     varied = _varied(whole, found, named, vary, notes)
     scale = length_scale if length_scale is not None else LENGTH_SCALE.get(whole.specimen.name, 1.0)
     if not (math.isfinite(scale) and scale > 0.0):
