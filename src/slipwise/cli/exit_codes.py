@@ -47,7 +47,7 @@ def _said(command: Callable[[], object]) -> int:
         code = command()
         sys.stdout.flush()
     except typer.TyperException as error:
-        words = getattr(error, "format_message", error.__str__)()
+        words = getattr(error, "format_message", error.__str__)() or "no command is given"
         return _refused(f"{words.rstrip('.')}; `slipwise --help` shows what is possible")
     except SlipwiseError as error:
         return _refused(str(error))

@@ -60,7 +60,8 @@ def plan(
         content = found.as_json()
         with figures_into(folder / "figures" if figures else None) as drawn:
             page = save_page(plan_page(found), folder / "plan.html")
-        files = [page, save_rows(found.rows, folder / "plan.csv"), *drawn, save_json(content, folder / "plan.json")]
+        table = [save_rows(found.rows, folder / "plan.csv")] if found.rows else []  # none without motions
+        files = [page, *table, *drawn, save_json(content, folder / "plan.json")]
     if json:
         print_json(content)
         return

@@ -33,6 +33,7 @@ from slipwise.effects import Effect
 from slipwise.errors import InputError, SimulationError, SlipwiseError
 from slipwise.estimation.base_fit import fit_base
 from slipwise.evidence.acceptance import LEAST
+from slipwise.evidence.calibration import load_calibration
 from slipwise.evidence.residual_summary import ResidualSummary
 from slipwise.evidence.score import compute_score, find_largest_drop
 from slipwise.jobs.parallel import one_thread_algebra
@@ -47,8 +48,8 @@ from slipwise.selection.search_state import Search
 from slipwise.signals.filters import lowpass
 from slipwise.simulation.replay import replay
 
-#: No motion makes anybody surer than this: who is, needs none.
-_SUREST = 0.99
+#: Who is so near to the surest that a verdict can be needs no further motion [1].
+_NEARLY = 0.01
 #: Rivals that are held against each other: three cost nine fits a motion.
 _MOST = 3
 
@@ -98,7 +99,7 @@ def next_test(
 def _ranked(found: Diagnosis, every: Contest, asked: Mapping[str, str], tell: Callable[[str, float], None]) -> NextTest:
     """Rank motions, each with why the table cannot make it, by how well they tell a contest's hypotheses apart."""
     contest, chances = every.hypotheses[:_MOST], every.chances[:_MOST]
-    if chances[0] >= _SUREST:
+    if chances[0] >= _compute_surest() - _NEARLY:
         words = "Nothing is in doubt: no motion could make anybody surer of this than the campaign does."
         return NextTest(tuple(h.names for h in contest), chances, (), words, found.sentence, found.corrections)
     models = [_as_shaken(found, h) for h in contest]
@@ -198,11 +199,16 @@ def _chances(found: Diagnosis, contest: Sequence[Hypothesis]) -> tuple[float, ..
     return tuple(listed.get(label, rest) if label else sure for label in labels)
 
 
+def _compute_surest() -> float:
+    """Return the largest probability of a verdict: what all of them are wrong by, whatever was measured, is in it."""
+    return load_calibration().whole(1.0, 0.0)
+
+
 def _later(chances: Sequence[float], separation: float) -> float:
     """Return the chance of the first hypothesis after a motion, if it is right; that none is right stays as likely."""
     # A material difference leaves a third of the others' odds, twice that a ninth.
     together, odds = sum(chances), sum(chances[1:]) * float(np.exp(-separation / LEAST.everywhere))
-    return max(chances[0], min(_SUREST, together * chances[0] / max(chances[0] + odds, 1e-12)))
+    return max(chances[0], min(_compute_surest(), together * chances[0] / max(chances[0] + odds, 1e-12)))
 
 
 def _as_shaken(found: Diagnosis, right: Hypothesis) -> Model:
@@ -280,8 +286,9 @@ def _words(found: Diagnosis, contest: Sequence[Hypothesis], most: float) -> str:
                 "runs tell them apart."
             )
     if most < LEAST.everywhere:
+        rivals = " and ".join(" + ".join(h.names) or "the base model" for h in contest)
         sentences.append(
-            f"No table motion of these tells them apart: {most:.2g} noise variances at most, "
+            f"No table motion of these tells {rivals} apart: {most:.2g} noise variances at most, "
             f"{LEAST.everywhere:g} is needed."
         )
         for one, other in combinations(contest, 2):
