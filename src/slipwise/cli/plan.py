@@ -60,7 +60,9 @@ def plan(
         content = found.as_json()
         with figures_into(folder / "figures" if figures else None) as drawn:
             page = save_page(plan_page(found), folder / "plan.html")
-        table = [save_rows(found.rows, folder / "plan.csv")] if found.rows else []  # none without motions
+        chances = folder / "plan.csv"
+        chances.unlink(missing_ok=True)  # of an earlier plan: without motions there are none
+        table = [save_rows(found.rows, chances)] if found.rows else []
         files = [page, *table, *drawn, save_json(content, folder / "plan.json")]
     if json:
         print_json(content)

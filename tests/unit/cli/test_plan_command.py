@@ -1,6 +1,5 @@
 """`slipwise plan` writes a page, a table and JSON, and keeps to the width of a terminal."""
 
-import csv
 import json
 
 import pytest
@@ -34,8 +33,7 @@ def test_the_page_the_table_and_the_json_are_there_and_agree(planned):
     page = (out / "plan.html").read_text(encoding="utf-8")
     assert content["sentence"] in page
     assert content["unused"] == ["pad_A_T"]
-    with (out / "plan.csv").open(encoding="utf-8") as stream:
-        assert not list(csv.DictReader(stream))  # no motion, no chances
+    assert not (out / "plan.csv").exists()  # no motion, no chances
 
 
 def test_a_rig_that_is_none_ends_with_an_error_and_leaves_no_page(tmp_path):
