@@ -7,6 +7,7 @@ not replayed: its motion is prescribed, and its law is driven by what was measur
 """
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,7 +18,7 @@ from slipwise.campaign.rig_motion import rig_motion
 from slipwise.comparison.measured_replay import choose_simulation_step, get_measured_motion
 from slipwise.comparison.system_level import build_replayed_model
 from slipwise.effects import Effect
-from slipwise.errors import SlipwiseError
+from slipwise.errors import SettingError, SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval
 from slipwise.estimation.objective import Objective
@@ -165,6 +166,8 @@ def compute_answer(
 ) -> Answer:
     """Return what a model answers in a run: replayed, or its pads driven with the measured load and motion.
 
+    They are driven too where no rig can be built of its numbers.
+
     Args:
         model: the fitted model, or a change of it.
         final: the fit.
@@ -176,7 +179,10 @@ def compute_answer(
     Raises:
         SimulationDiverged: a replay left every bound, and `partly` was not asked for.
     """
-    return _replayed(model, final, place, rough=rough, partly=partly) if replayed else _driven(model, final, place)
+    if replayed:
+        with suppress(SettingError):  # a fit knows no bound by which inertias are those of a rigid body
+            return _replayed(model, final, place, rough=rough, partly=partly)
+    return _driven(model, final, place)
 
 
 def _models(final: BaseFit, added: Mapping[str, Sequence[Term]]) -> dict[str, Model]:

@@ -6,10 +6,14 @@ import numpy as np
 import pytest
 
 from slipwise.campaign import load_campaign
+from slipwise.errors import SettingError
+from slipwise.estimation.base_fit import fit_base
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import fit_prepared
 from slipwise.selection.hypothesis import make_base_hypothesis
-from slipwise.selection.importance import choose_shown, compute_share_of_channel
+from slipwise.selection.importance import build_answering_model, choose_shown, compute_answer, compute_share_of_channel
+from slipwise_benchmarks import build_campaign
+from slipwise_benchmarks.in_memory import as_campaign
 from unit.campaign.slider import RUNS, slider, text
 
 
@@ -32,3 +36,15 @@ def test_a_held_out_run_in_which_the_gauge_is_dead_does_not_tell_what_matters(de
     assert base.objective.held_out == [1] and choose_shown(base) == (0 if dead else 1)
     summary = make_base_hypothesis(base).summary
     assert summary.judged_apart is not dead
+
+
+def test_numbers_of_which_no_rig_can_be_built_are_answered_by_what_drives_the_pads(monkeypatch) -> None:
+    base = fit_base(as_campaign(build_campaign(31, effects=(), rig="bridge1")))
+    model, place = build_answering_model(base), choose_shown(base)
+    driven = compute_answer(model, base, place, replayed=False)
+
+    def cannot(*_, **__):
+        raise SettingError("inertia must satisfy A + B >= C")
+
+    monkeypatch.setattr("slipwise.selection.importance.simulate", cannot)
+    assert compute_answer(model, base, place, replayed=True).responses == driven.responses
