@@ -42,9 +42,8 @@ def replays(base: BaseFit, final: BaseFit, added: Sequence[str]) -> tuple[Record
     def shake(model: Model) -> Record:
         dt = choose_simulation_step(states.dt, model.built_specimen())
         shaken = replay(model, motion, dt=dt, output_dt=states.dt).record
-        return dataclasses.replace(
-            shaken, time=shaken.time - shaken.time[0] + states.record.time[0]
-        )  # as the gauges' clock
+        since = states.record.time[0] - shaken.time[0]  # a record that was cut out of a longer one begins late
+        return dataclasses.replace(shaken, time=shaken.time + since)
 
     return states.record, [(label, shake(_mechanics(fit))) for label, fit in models]
 

@@ -7,7 +7,6 @@ not replayed: its motion is prescribed, and its law is driven by what was measur
 """
 
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,7 +17,7 @@ from slipwise.campaign.rig_motion import rig_motion
 from slipwise.comparison.measured_replay import choose_simulation_step, get_measured_motion
 from slipwise.comparison.system_level import build_replayed_model
 from slipwise.effects import Effect
-from slipwise.errors import SettingError, SlipwiseError
+from slipwise.errors import SlipwiseError
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.intervals import Interval
 from slipwise.estimation.objective import Objective
@@ -94,7 +93,7 @@ def compute_importance(final: BaseFit, terms: Sequence[Term], sizes: Sequence[In
     asked = [("", place) for place in dict.fromkeys(p for of in places.values() for p in of)]
     asked += [(name, place) for name, of in places.items() for place in of]
     models = _models(final, added)
-    free = is_replayable(objective, shown)
+    free = is_replayable(final, shown)
 
     def answer(k: int) -> Answer:
         name, place = asked[k]
@@ -156,17 +155,22 @@ def build_answering_model(final: BaseFit) -> Model:
     return build_replayed_model(final)[0] if objective.specimen.free else objective.model(final.solution.values)
 
 
-def is_replayable(objective: Objective, place: int) -> bool:
-    """Return whether a run can be replayed: of a slider, and without the table's motion, it can only be driven."""
-    return objective.specimen.free and "table_ax" in objective.run(place).record
+def is_replayable(final: BaseFit, place: int) -> bool:
+    """Return whether a run can be replayed: of a slider, and without the table's motion, it can only be driven.
+
+    So it is where a fit, which knows no such bound, has left the inertias of no rigid body: no rig is built of them.
+    """
+    objective = final.objective
+    if not objective.specimen.free or "table_ax" not in objective.run(place).record:
+        return False
+    inertia = build_answering_model(final).built_specimen().inertia
+    return 2.0 * max(inertia) <= sum(inertia)
 
 
 def compute_answer(
     model: Model, final: BaseFit, place: int, *, replayed: bool, rough: bool = False, partly: bool = False
 ) -> Answer:
     """Return what a model answers in a run: replayed, or its pads driven with the measured load and motion.
-
-    They are driven too where no rig can be built of its numbers.
 
     Args:
         model: the fitted model, or a change of it.
@@ -179,10 +183,7 @@ def compute_answer(
     Raises:
         SimulationDiverged: a replay left every bound, and `partly` was not asked for.
     """
-    if replayed:
-        with suppress(SettingError):  # a fit knows no bound by which inertias are those of a rigid body
-            return _replayed(model, final, place, rough=rough, partly=partly)
-    return _driven(model, final, place)
+    return _replayed(model, final, place, rough=rough, partly=partly) if replayed else _driven(model, final, place)
 
 
 def _models(final: BaseFit, added: Mapping[str, Sequence[Term]]) -> dict[str, Model]:

@@ -149,7 +149,7 @@ def compute_units_of_fits(
 
 
 def _answer(model: Model, here: BaseFit, place: int, *, partly: bool = False) -> Answer:
-    replayed = is_replayable(here.objective, place)
+    replayed = is_replayable(here, place)
     return compute_answer(model, here, place, replayed=replayed, rough=True, partly=partly)
 
 
