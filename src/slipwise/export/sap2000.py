@@ -174,7 +174,7 @@ def export_sap2000(
     if campaign is not None:
         tell("reading the campaign", 0.1)
         prepared = prepare(as_campaign(campaign)).campaign
-        _check_pads(physics, prepared)
+        _check_rig(physics, prepared)
         states, words = states_of_campaign(physics, prepared), f"the runs of {prepared.name}"
         records = [run.record for run in prepared.runs if "slip_x" in run.record]
     else:
@@ -209,7 +209,7 @@ def _springs(model: Model, record: Record) -> list[SpringLink]:
     return found
 
 
-def _check_pads(model: Model, campaign: Campaign) -> None:
+def _check_rig(model: Model, campaign: Campaign) -> None:
     """Refuse a campaign of another rig, or of other pads, than the model's."""
     if campaign.specimen.name != model.specimen.name:
         raise SettingError(

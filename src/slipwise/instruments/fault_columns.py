@@ -108,9 +108,9 @@ def columns_of_faults(
     in_place = {label_of(s): (s, size) for s, size in point.sizes}
     lags = {s.channels: one for one in in_place.values() if (s := one[0]).unit == "s"}
     in_place = {label_of(s): lags[s.channels] for s in every if s.unit == "s" and s.channels in lags} | in_place
-    bare: dict[str, BalancesAt] = {
-        label: evaluate(case, Point(point.constants, tuple(one for one in point.sizes if one[0] is not suspect)))
-        for label, (suspect, _) in in_place.items()
+    bare = {
+        suspect.key: evaluate(case, Point(point.constants, tuple(one for one in point.sizes if one[0] is not suspect)))
+        for suspect, _ in point.sizes
     }
     known: dict[str, list[FaultColumn]] = {}
     for c in kept:
@@ -129,7 +129,7 @@ def columns_of_faults(
                 if (suspect.one_sided and size <= 0.0) or is_delay(suspect.effect, suspect.values(size), case.passed):
                     continue
                 take = partial(suspect.correct, size=size)  # where all of it is out there is as much noise as before
-                changes.append((_change_by(bare[label], suspect, take, suspect.least / size), {}))
+                changes.append((_change_by(bare[in_place[label][0].key], suspect, take, suspect.least / size), {}))
         elif not suspect.effect.plainer:  # a small filter is a delay
             for size in anew.get(label, (suspect.step / suspect.least,)):
                 take = partial(suspect.distort, size=size * suspect.least)

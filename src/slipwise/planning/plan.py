@@ -91,8 +91,8 @@ def plan(
     unused = tuple(c for c in channels if not equations.measured_by(c))
     used = _refuse_useless([c for c in channels if c not in unused], channels, equations)
     planned = judge(used)
-    unjudged = [c for c in used if c not in keep_judged(specimen, used)]
-    if unjudged:
+    judged = keep_judged(specimen, used)
+    if unjudged := [c for c in used if c not in judged]:
         notes.append(
             f"{', '.join(unjudged)}: nothing is made of them, for no balance of the girder can be made where the load "
             "or the friction is measured on some pads only; measure it on all of them, or on none."
