@@ -93,7 +93,7 @@ def compute_importance(final: BaseFit, terms: Sequence[Term], sizes: Sequence[In
     asked = [("", place) for place in dict.fromkeys(p for of in places.values() for p in of)]
     asked += [(name, place) for name, of in places.items() for place in of]
     models = _models(final, added)
-    free = is_replayable(final, shown)
+    free = is_replayable(models[""], final, shown)
 
     def answer(k: int) -> Answer:
         name, place = asked[k]
@@ -133,10 +133,12 @@ class Answer:
     Attributes:
         responses: name of `RESPONSES` -> its value [SI].
         channels: channel -> what a gauge would show (n,) [SI].
+        replayed: whether the run was replayed; else its pads were driven. What is held against it is answered alike.
     """
 
     responses: Mapping[str, float]
     channels: Mapping[str, Array]
+    replayed: bool
 
 
 def choose_shown(final: BaseFit) -> int:
@@ -155,15 +157,20 @@ def build_answering_model(final: BaseFit) -> Model:
     return build_replayed_model(final)[0] if objective.specimen.free else objective.model(final.solution.values)
 
 
-def is_replayable(final: BaseFit, place: int) -> bool:
+def is_replayable(model: Model, final: BaseFit, place: int) -> bool:
     """Return whether a run can be replayed: of a slider, and without the table's motion, it can only be driven.
 
     So it is where a fit, which knows no such bound, has left the inertias of no rigid body: no rig is built of them.
+
+    Args:
+        model: of `build_answering_model`.
+        final: the fit.
+        place: of the run.
     """
     objective = final.objective
     if not objective.specimen.free or "table_ax" not in objective.run(place).record:
         return False
-    inertia = build_answering_model(final).built_specimen().inertia
+    inertia = model.built_specimen().inertia
     return 2.0 * max(inertia) <= sum(inertia)
 
 
@@ -231,7 +238,7 @@ def _replayed(model: Model, final: BaseFit, place: int, *, rough: bool, partly: 
         "energy": sum(answer.pad_energy.values()),
         "largest_load": max(high for _, high in answer.load_range.values()),
     }
-    return Answer(responses, channels)
+    return Answer(responses, channels, replayed=True)
 
 
 def _as_long_as(channels: Mapping[str, Array], count: int) -> dict[str, Array]:
@@ -267,7 +274,7 @@ def _driven(model: Model, final: BaseFit, place: int) -> Answer:
     for entry in model.with_hook("gauge"):
         record = entry.effect.hooks["gauge"](record, entry.target, **entry.values)
     energy = sum(float(np.sum(force[:, i, 0] * run.velocity) * run.dt) for i in range(len(run.pads)))
-    return Answer({"energy": energy}, record.channels)
+    return Answer({"energy": energy}, record.channels, replayed=False)
 
 
 def compute_share_of_channel(change: Array, measured: Array) -> float:

@@ -77,7 +77,7 @@ def compute_moved_by_sizes(
         most: as of `compute_units`.
     """
     whole, places = build_answering_model(here), [choose_shown(here), *dict.fromkeys(most.values())]
-    bare = {place: _answer(whole, here, place, partly=True) for place in dict.fromkeys(places)}
+    bare = {place: _answer(whole, here, place) for place in dict.fromkeys(places)}
 
     def moved(k: int) -> Moved:
         term, values = asked[k]
@@ -103,7 +103,7 @@ def compute_sizes_in_place(
     """
     values, places = here.solution.values, list(dict.fromkeys([choose_shown(here), here.objective.fitted[0]]))
     whole = build_answering_model(here)
-    bare = {place: _answer(whole, here, place, partly=True) for place in places}
+    bare = {place: _answer(whole, here, place) for place in places}
 
     def size(k: int) -> float:
         term = terms[k]
@@ -132,7 +132,7 @@ def compute_units_of_fits(
     if not whole:
         return {}
     place = choose_shown(here)
-    without = {place: _answer(build_answering_model(here), here, place, partly=True)}
+    without = {place: _answer(build_answering_model(here), here, place)}
 
     def moved(k: int) -> Moved:
         [term], fit = whole[k].terms, make_fit(here, whole[k], with_slopes=False)
@@ -142,15 +142,16 @@ def compute_units_of_fits(
         if term.effect.replaces:
             return _compare(here, model, without, [place], limits)
         bare = model.without(*(u.label for u in term.uses(fit.solution.values)))
-        return _compare(fit, bare, {place: _answer(model, fit, place, partly=True)}, [place], limits)
+        return _compare(fit, bare, {place: _answer(model, fit, place)}, [place], limits)
 
     answers = on_every_core(moved, len(whole))
     return {(h.terms[0].label, ""): x for h, x in zip(whole, answers, strict=True)}
 
 
-def _answer(model: Model, here: BaseFit, place: int, *, partly: bool = False) -> Answer:
-    replayed = is_replayable(here, place)
-    return compute_answer(model, here, place, replayed=replayed, rough=True, partly=partly)
+def _answer(model: Model, here: BaseFit, place: int) -> Answer:
+    """Return what a fit's own model answers."""
+    replayed = is_replayable(model, here, place)
+    return compute_answer(model, here, place, replayed=replayed, rough=True, partly=True)
 
 
 def _having(model: Model, term: Term, values: Mapping[str, float]) -> Model:
@@ -170,11 +171,11 @@ def _compare(
     shares: list[float] = []
     changes: dict[str, float] = {}
     for number, place in enumerate(places):
+        run, without = here.objective.run(place), bare[place]
         try:
-            there = _answer(model, here, place)
+            there = compute_answer(model, here, place, replayed=without.replayed, rough=True)
         except (SlipwiseError, FloatingPointError):
             return Moved(0.0)
-        run, without = here.objective.run(place), bare[place]
         for c in (c for c in there.channels if c in run.record and c in without.channels):
             change = there.channels[c] - without.channels[c]
             shares.append(compute_share_of_channel(change, run.record[c]) / limits.channel)
