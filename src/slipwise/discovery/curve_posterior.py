@@ -179,6 +179,7 @@ def _best_move(system: CurveSystem, solved: Solved, active: Mapping[int, int]) -
     now = variance_of(system, active)
     taken = {groups.owner[f] for f in active}
     barred = {label for one, label in system.apart for f in active if groups.labels[groups.owner[f]] == one}
+    standing = _prior(system, active)
     best: tuple[float, dict[int, int]] | None = None
     for form, owner in enumerate(groups.owner):
         here = active.get(form)
@@ -188,29 +189,26 @@ def _best_move(system: CurveSystem, solved: Solved, active: Mapping[int, int]) -
         spread = inverse[np.ix_(at, at)]
         precision = np.linalg.inv(spread)
         own, pull = precision - np.diag(1.0 / now[at]), precision @ means[at]
-        before = _worth(own, pull, now[at])
-        for width in (None, *range(len(prior.large))):
-            if width == here:
+        widths = [w for w in (None, *range(len(prior.large))) if w != here]
+        large = np.array([0.0 if w is None else prior.large[w] ** 2 for w in widths])
+        worth, sizes = _answers_at(own, pull, np.vstack([now[at], system.trifles[at] + large[:, None]]))
+        one_sided = np.array([not system.columns[j].two_sided for j in at])
+        without = {f: w for f, w in active.items() if f != form}
+        for width, gain, size in zip(widths, worth[1:] - worth[0], sizes[1:], strict=True):
+            if width is not None and np.any(size[one_sided] <= 0.0):
                 continue
-            then = system.trifles[at] + (0.0 if width is None else prior.large[width] ** 2)
-            if width is not None and not _of_right_sign(system, at, own, pull, then):
-                continue
-            chosen = {f: w for f, w in active.items() if f != form}
-            if width is not None:
-                chosen[form] = width
-            gain = _worth(own, pull, then) - before + _prior(system, chosen) - _prior(system, active)
+            chosen = without if width is None else {**without, form: width}
+            gain += _prior(system, chosen) - standing
             if gain > _WORTH and (best is None or gain > best[0]):
                 best = gain, chosen
     return best[1] if best else None
 
 
-def _worth(own: Array, pull: Array, variance: Array) -> float:
-    """Return the evidence of some columns at these prior variances, up to a constant [nats]."""
-    precision = own + np.diag(1.0 / variance)
-    _, determinant = np.linalg.slogdet(precision)
-    return 0.5 * float(pull @ np.linalg.solve(precision, pull) - determinant - np.sum(np.log(variance)))
+def _answers_at(own: Array, pull: Array, variances: Array) -> tuple[Array, Array]:
+    """Return the evidence (w,) of n columns, up to a constant [nats], and their sizes (w, n) at prior variances (w, n).
 
-
-def _of_right_sign(system: CurveSystem, at: NDArray[np.int64], own: Array, pull: Array, variance: Array) -> bool:
-    size = np.linalg.solve(own + np.diag(1.0 / variance), pull)
-    return all(system.columns[j].two_sided or x > 0.0 for j, x in zip(at, size, strict=True))
+    Of all variances in one call: there are thousands of small systems.
+    """
+    precision = own + np.eye(len(own)) / variances[:, None, :]
+    sizes = np.linalg.solve(precision, np.broadcast_to(pull[:, None], (*variances.shape, 1)))[..., 0]
+    return 0.5 * (sizes @ pull - np.linalg.slogdet(precision)[1] - np.sum(np.log(variances), axis=1)), sizes
