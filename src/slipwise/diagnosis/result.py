@@ -193,7 +193,7 @@ class Diagnosis(Drawn, Tabular):
         if self.verdict.leftover != "none":
             surface = self.verdict.surface
             return f"what is left: {surface.words if surface else 'no state that was measured organises it'}"
-        return "nothing is missing any more"
+        return "nothing is left above the noise"
 
     def replays(self) -> tuple[Record, list[tuple[str, Record]]]:
         """Replay the first held-out run with the model before and after: measured record, then label and record.

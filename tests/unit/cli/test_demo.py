@@ -31,7 +31,7 @@ def test_the_demo_names_the_hidden_effect_and_the_error_falls_to_the_floor(slipw
     assert (tmp_path / "before_and_after.rrd").stat().st_size > 100_000
     assert "run_in" in load_model(tmp_path / "campaign" / "model.toml")
     printed = " ".join(out.split())
-    assert "nothing above the noise floor is left" in printed and "nothing is missing any more" in printed
+    assert "nothing above the noise floor is left" in printed and "nothing is left above the noise" in printed
     assert "five runs" in printed and "fitted to four runs" in printed and "slipwise effects run_in" in printed
 
 

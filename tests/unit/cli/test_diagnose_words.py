@@ -69,7 +69,7 @@ def test_a_law_that_cannot_be_looked_for_leaves_the_verdict(monkeypatch, capsys)
 def test_the_demo_says_what_is_left():
     of = base(pads=20.0)
     quiet = diagnosed(searched(of, left_by("heating", of=of)))
-    assert quiet.left_over == "nothing is missing any more"
+    assert quiet.left_over == "nothing is left above the noise"
     little = left_by("heating", of=of, pads=1.3, over=lambda run: run.velocity)
     state = searched(of, little)
     shaped = replace(decided(state), leftover="unknown", surface=leftover(little))
