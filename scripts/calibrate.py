@@ -11,8 +11,9 @@ what more of a number can only mean): whether an effect that was found is there,
 posterior says, whether effects are of the right family whatever they leave, and whether all of a verdict is right, by
 the product of these and by the floors that names leave. That last one is fitted to verdicts that models of other
 campaigns have made (in five parts, the two makers' campaigns of a seed in one), or it would be told how well the
-others remember; `--whole` fits it alone to kept verdicts of campaigns that the other models have not seen. Families
-that are held out take no part; what the models say of them is printed apart.
+others remember; `--whole` fits the last two alone to kept verdicts of campaigns that the other models have not seen:
+few campaigns leave something that matters. Families that are held out take no part; what the models say of them is
+printed apart.
 
 Printed are, of verdicts by models that have not seen them: how many are right, the Brier score, and how often claims of
 each fifth come true.
@@ -34,7 +35,7 @@ from sklearn.isotonic import IsotonicRegression
 from slipwise.arrays import Array
 from slipwise.campaign.materiality import Materiality
 from slipwise.evidence.calibration import Calibration, Logistic, compute_log_odds
-from slipwise.evidence.decision import is_left
+from slipwise.evidence.decision import EVEN_ODDS, is_left
 from slipwise_benchmarks.evidence import PRODUCT, decide_by_product
 from slipwise_benchmarks.family_score import may_be_named, right
 
@@ -182,15 +183,27 @@ def chances_of(said: Sequence[tuple[Case, bool]], whole: Logistic) -> list[tuple
     return [((PRODUCT if unknown else whole)(of), good) for (of, good), unknown in said]
 
 
-def read_kept(file: Path) -> list[tuple[Case, bool]]:
-    """Give what kept verdicts said of campaigns, whether it was right, and whether it was unknown."""
-    rows = [row for row in map(json.loads, file.read_text(encoding="utf-8").splitlines()) if "product" in row]
-    out = []
-    for row in rows:
-        named = row["verdict"] in ("named", "ambiguous", "instrument")
-        of = {"product": row["product"], "floors": float(np.log(max(1.0, row["final_error"]))) if named else 0.0}
-        out.append(((of, row["right"]), row["verdict"] == "unknown"))
-    return out
+def read_kept(file: Path) -> list[Row]:
+    """Give the kept verdicts that say what they rest on."""
+    return [row for row in map(json.loads, file.read_text(encoding="utf-8").splitlines()) if "product" in row]
+
+
+def kept_cases_of_family(rows: Sequence[Row]) -> list[Case]:
+    """Give what kept verdicts leave where that matters, and whether nothing is hidden that the catalogue has not."""
+    left = [row for row in rows if "rest" in row and is_left(row["rest"], Materiality().channel)]
+    return [(row["rest"], "unknown" not in row["missing"]) for row in left]
+
+
+def said_by_kept(row: Row, right_family: Logistic) -> tuple[Case, bool]:
+    """Give what a kept verdict says of a campaign, whether that is right, and whether it is unknown."""
+    left = "rest" in row and is_left(row["rest"], Materiality().channel)
+    exact = right_family(row["rest"]) if left else 1.0
+    if row["verdict"] == "unknown":
+        return ({"product": compute_log_odds(1.0 - exact if left else EVEN_ODDS), "floors": 0.0}, row["right"]), True
+    named = row["verdict"] in ("named", "ambiguous", "instrument")
+    chance = float(expit(row["product"])) * max(exact, 1.0 - exact)
+    of = {"product": compute_log_odds(chance), "floors": float(np.log(max(1.0, row["final_error"]))) if named else 0.0}
+    return (of, row["right"]), False
 
 
 def main() -> None:
@@ -206,12 +219,18 @@ def main() -> None:
     before = Calibration(**{n: Logistic(of["constant"], of["weights"]) for n, of in content["models"].items()})
     today = f"{datetime.now(UTC):%Y-%m-%d}"
     if chosen.whole:
-        said = read_kept(chosen.source)
+        rows = read_kept(chosen.source)
+        left = kept_cases_of_family(rows)
+        family = fitted(left, FAMILY, before.right_family)
+        said = [said_by_kept(row, family) for row in rows]
         cases = [case for case, unknown in said if not unknown]
-        chances = replace(before, all_right=fitted(cases, WHOLE, before.all_right))
-        report(chances_of(said, before.all_right), "as before")
+        chances = replace(before, right_family=family, all_right=fitted(cases, WHOLE, before.all_right))
+        report(chances_of([said_by_kept(row, before.right_family) for row in rows], before.all_right), "as before")
         report(chances_of(said, chances.all_right), "fitted to them")
-        content["provenance_of_all_right"] = f"{len(cases)} verdicts of {chosen.source}, {today}; scripts/calibrate.py"
+        report([(family(of), good) for of, good in left], "what is left is no law outside the catalogue")
+        source = f"verdicts of {chosen.source}, {today}; scripts/calibrate.py"
+        content["provenance_of_all_right"] = f"{len(cases)} {source}"
+        content["provenance_of_right_family"] = f"{len(left)} {source}"
     else:
         every = read(chosen.source)
         rows = [row for row in every if not row["answer"]["held_out_family"]]
@@ -228,7 +247,7 @@ def main() -> None:
             f"{len(rows)} campaigns of the families, seeds {seeds[0]} to {seeds[-1]}, {today}; "
             f"scripts/calibrate.py; too few cases, chosen by judgement: {', '.join(kept) or 'none'}"
         )
-        content["provenance_of_all_right"] = "as the others"
+        content["provenance_of_all_right"] = content["provenance_of_right_family"] = "as the others"
     content["models"] = {n: {"constant": m.constant, "weights": m.weights} for n, m in vars(chances).items()}
     print(json.dumps(content, indent=1))
     if not chosen.check:

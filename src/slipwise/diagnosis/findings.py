@@ -1,5 +1,6 @@
 """The evidence for every effect of a final model, in the few numbers on which its probability rests."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -107,7 +108,7 @@ def collect_findings(
         compute_excess_over_noise(final.summary, final.summary),
     )
     sizes = {n: importances[n].share_of_limit(limits) for n in names}
-    inclusions = {n: state.inclusions.get(n, ABSENT) for n in names}
+    inclusions = {n: _inclusion_of(state, n, names) for n in names}
     stays = {n: of.stays for n, of in inclusions.items()}
     out = [
         EffectFinding(
@@ -130,6 +131,17 @@ def collect_findings(
         for n in names
     ]
     return state, sorted(out, key=lambda f: -f.material)
+
+
+def _inclusion_of(state: Search, name: str, names: Sequence[str]) -> Inclusion:
+    """Return what the posterior says of an effect, or of one that becomes it and is not in the model.
+
+    Their columns are alike, so the posterior may have taken the one for the other: a spring for a restrainer whose gap
+    is small.
+    """
+    known = {t.effect.name: t.effect for t in state.terms if t.effect.name not in names}
+    wider = [n for n, effect in known.items() if any(limit.becomes == name for limit in effect.limits)]
+    return max((state.inclusions.get(n, ABSENT) for n in (name, *wider)), key=lambda of: of.matters)
 
 
 def _left_where_it_shows(without: ResidualSummary, final: ResidualSummary) -> float:

@@ -219,13 +219,12 @@ class Diagnosis(Drawn, Tabular):
                 least = "above the noise" if clean else "that matters"
                 return f"Nothing {least} is missing ({_short(self.base_error)} times the floor; {chance}){self._minor}."
             case "named":
-                more = "; form not exact" if self.verdict.leftover == "unknown" and not beside else ""
                 if self.verdict.is_doubtful:
                     best = (
                         f"The best account of it, {names}{beside}, is more likely wrong in part than right ({chance})"
                     )
-                    return f"Something is missing. {best}; {fall}{more}{self._minor}{self._bounds}."
-                return f"The model lacks {names}{beside} ({chance}); {fall}{more}{self._minor}{self._bounds}."
+                    return f"Something is missing. {best}; {fall}{self._minor}{self._bounds}."
+                return f"The model lacks {names}{beside} ({chance}); {fall}{self._minor}{self._bounds}."
             case "instrument":
                 return f"A gauge is at fault: {names}{beside} ({chance}); {fall}{self._minor}{self._bounds}."
             case "ambiguous":
@@ -234,7 +233,10 @@ class Diagnosis(Drawn, Tabular):
             case _:
                 surface = self.verdict.surface
                 shape = surface.words if surface else "no state that was measured organises it"
-                return f"Something outside the catalogue ({chance}). {shape[0].upper()}{shape[1:]}{self._nearest}."
+                what = f"Something outside the catalogue ({chance})"
+                if self.verdict.is_doubtful:
+                    what = f"What is left matters and has no name; a law outside the catalogue is not likely ({chance})"
+                return f"{what}. {shape[0].upper()}{shape[1:]}{self._nearest}."
 
     @property
     def _nearest(self) -> str:

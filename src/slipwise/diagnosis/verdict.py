@@ -50,12 +50,12 @@ class Verdict:
         effects: names of what matters, most important first.
         minor: names of what is there and does not matter.
         probability: that kind and names are right.
-        leftover: "none" or "unknown".
+        leftover: "unknown" where something outside the catalogue is missing, alone or beside names; else "none".
         explained: share of what the base left above the noise that the effects that were found take away [1].
         surface: what remains, where anything does.
         rivals: hypotheses that nearly tie with the named one.
         findings: evidence for every effect that was found.
-        unknown_beside: whether what is left is more than that the named laws have not quite the right form.
+        unknown_beside: whether, beside what is named, something outside the catalogue is likelier than not.
     """
 
     kind: str
@@ -71,8 +71,8 @@ class Verdict:
 
     @property
     def is_doubtful(self) -> bool:
-        """Whether the names, all together, are more likely wrong than right."""
-        return self.kind == "named" and self.probability < EVEN_ODDS
+        """Whether the names, all together, or that something outside the catalogue is missing, are likelier wrong."""
+        return self.kind in ("named", "unknown") and self.probability < EVEN_ODDS
 
 
 def compute_explained_share_of_base(origin: Hypothesis, found: Hypothesis, relation: str = "") -> float:
@@ -99,29 +99,29 @@ def decide_verdict(state: Search, found: Sequence[EffectFinding], limits: Materi
     rest = evidence_of_rest(origin, final, surface, state.unexplained, list_shares_of_limit(state))
     of_effects = {f.name: evidence_of(f) for f in found if not (f.at_limit or f.is_trifle)}
     decided = decide(of_effects, rest, limits.channel, load_calibration())
-    kind = decided.kind
+    kind, named, probability = decided.kind, decided.named, decided.probability
     if kind == "complete" and {f.name for f in found} - set(decided.minor):
         bare = evidence_of_rest(origin, origin, None)
         if is_left(bare, limits.channel):
             # what takes it away is not believed, so it is still there: a model that leaves it is not complete
-            kind, rest = "unknown", bare
-    named, probability = decided.named, decided.probability
+            kind, rest, probability = "unknown", bare, EVEN_ODDS
     if named and _explains_little(origin, final) and is_left(rest, limits.channel):
         kind, named, probability = "unknown", (), max(1.0 - probability, EVEN_ODDS)
     if kind != "unknown":
         probability *= _chance_that_nothing_hides(state, named) * (1.0 if origin.summary.judged_apart else _UNCONFIRMED)
     nameless = any(f.at_limit and f.material >= 1.0 for f in found)
+    beside = kind not in ("unknown", "complete") and (decided.unknown_beside or nameless)
     verdict = Verdict(
         kind,
         named,
         decided.minor,
         probability,
-        "unknown" if is_left(rest, limits.channel) or nameless else "none",
+        "unknown" if kind == "unknown" or beside else "none",
         compute_explained_share_of_base(origin, final),
         surface,
         (),
         tuple(found),
-        decided.unknown_beside and kind != "unknown",
+        beside,
     )
     if kind == "unknown":  # what is drawn is all that is missing, not what unnamed effects have left of it
         whole = leftover(origin)
@@ -188,7 +188,7 @@ def evidence_of_rest(
     over = left_above_noise(final, unexplained)
     where = max(over, key=lambda relation: over[relation])
     return {
-        "explained": compute_explained_share_of_base(origin, final, where) if final.terms else 0.0,
+        "explained": max(compute_explained_share_of_base(origin, final, where), 0.0) if final.terms else 0.0,
         "left": surface.explained if surface else 0.0,
         "relative": float(np.log(max(over[where], 1e-6))),
         "limit": float(np.log(of_limit.get(where, 1.0))),

@@ -45,9 +45,12 @@ class Decision:
 def is_left(rest: Mapping[str, float], least: float) -> bool:
     """Return whether what is left matters: as a share of the balance, or of what a law leaves that does.
 
+    A law is a function of some state of motion: what no state organises is held against the balance only.
+
     Arguments as of `decide`.
     """
-    return bool(np.exp(rest["relative"]) >= min(least, np.exp(rest.get("limit", 0.0))))
+    of_a_law = np.exp(rest.get("limit", 0.0)) if rest["left"] > 0.0 else least
+    return bool(np.exp(rest["relative"]) >= min(least, of_a_law))
 
 
 def compute_chance_to_matter(of: Mapping[str, float], chances: Calibration) -> float:

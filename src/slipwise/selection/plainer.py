@@ -28,7 +28,10 @@ def plainest(state: Search, found: Hypothesis) -> tuple[Search, Hypothesis]:
         for plain in _plainer(state, term, rest):
             starts = {plain.label: _start(state, plain)}
             state, other = tried_or_fitted(state, [*rest, plain], starts, found)
-            if not is_kept(origin, other.summary, found.summary, compute_least_drop([term])) and not is_at_limit(other):
+            least = compute_least_drop([term])
+            at_end = term.label in is_at_limit(found) and found.solution.cost >= (1.0 - least) * other.solution.cost
+            explains_more = is_kept(origin, other.summary, found.summary, least) and not at_end
+            if not explains_more and not is_at_limit(other):
                 return plainest(state, other)
     return state, found
 

@@ -11,6 +11,7 @@ import pytest
 
 from hypotheses import base, decided, left_by, searched
 from slipwise.diagnosis import verdict
+from slipwise.diagnosis.findings import _inclusion_of
 from slipwise.diagnosis.verdict import Verdict, evidence_of, with_faults
 from slipwise.effects import Effect, catalogue
 from slipwise.estimation.base_fit import BaseFit
@@ -18,6 +19,7 @@ from slipwise.preparation.sample_fault import SampleFault
 from slipwise.relations.parameters import Term
 from slipwise.relations.run_data import FitRun
 from slipwise.selection.hypothesis import Hypothesis
+from slipwise.selection.inclusion import ABSENT
 
 
 def _decided(of: BaseFit, *tried: Hypothesis, **material: float) -> Verdict:
@@ -133,10 +135,17 @@ def test_one_of_two_effects_that_are_one_thing_is_given_with_the_other_beside_a_
 
 def test_beside_an_effect_that_explains_little_of_much_something_is_missing_that_has_no_name():
     of = base(pads=900.0)
-    found = _decided(of, left_by("heating", of=of, pads=600.0))
+    found = _decided(of, left_by("heating", of=of, pads=600.0, over=_speed))
     assert (found.kind, found.effects, found.leftover) == ("named", ("heating",), "unknown")
     assert found.unknown_beside
     assert not _decided(of, left_by("heating", of=of, pads=4.0)).unknown_beside
+
+
+def test_what_no_state_organises_is_no_law_but_makes_names_doubtful() -> None:
+    of = base(pads=900.0)
+    found = _decided(of, left_by("heating", of=of, pads=600.0))
+    assert (found.kind, found.effects, found.leftover) == ("named", ("heating",), "none")
+    assert found.is_doubtful
 
 
 def test_a_gauge_is_an_instrument():
@@ -166,7 +175,17 @@ def test_a_gauge_that_lost_samples_for_good_is_late_by_that(moved, channel, name
 def test_a_law_of_another_form_is_named_with_what_it_leaves() -> None:
     of = base(pads=900.0)
     found = _decided(of, left_by("breakaway", of=of, pads=60.0, over=_speed))
-    assert (found.kind, found.leftover) == ("named", "unknown")
+    assert (found.kind, found.leftover, found.unknown_beside) == ("named", "unknown", True)
+
+
+def test_a_plainer_effect_is_believed_as_the_one_of_which_it_is_the_end() -> None:
+    """The posterior has taken a spring for a restrainer with a small gap."""
+    of = base(pads=400.0)
+    weak, sure = replace(ABSENT, matters=0.01), replace(ABSENT, matters=0.99)
+    tried = left_by("slide_curvature", of=of), left_by("restrainer", of=of)
+    state = replace(searched(of, *tried), inclusions={"slide_curvature": weak, "restrainer": sure})
+    assert _inclusion_of(state, "slide_curvature", ["slide_curvature"]) is sure
+    assert _inclusion_of(state, "slide_curvature", ["slide_curvature", "restrainer"]) is weak
 
 
 def test_nobody_is_sure_of_what_no_held_out_run_has_confirmed():

@@ -26,4 +26,7 @@ def test_what_ships_says_where_it_comes_from_and_grows_with_what_speaks_for_it()
     assert shipped.whole(0.2, 0.0) < shipped.whole(0.9, 0.0)
     # what leaves floors is less sure to be right
     assert shipped.whole(0.9, 1.0) < shipped.whole(0.9, 0.0)
-    assert shipped.family({"explained": 0.1}) < shipped.family({"explained": 0.9})
+    rest = {"explained": 0.5, "left": 0.3, "relative": -3.0}
+    assert shipped.family({**rest, "explained": 0.1}) < shipped.family({**rest, "explained": 0.9})
+    # what a state organises is a law, the larger the likelier
+    assert shipped.family({**rest, "left": 0.9}) < shipped.family(rest) < shipped.family({**rest, "relative": -5.0})

@@ -71,9 +71,11 @@ def test_what_is_left_matters_from_the_share_that_is_material() -> None:
 
 
 def test_what_is_left_matters_from_what_a_law_of_one_limit_leaves() -> None:
-    little = left(0.5 * LEAST, 0.0)
+    little = {**left(0.5 * LEAST, 0.0), "left": 0.3}
     assert is_left({**little, "limit": float(np.log(0.4 * LEAST))}, LEAST)
     assert not is_left({**little, "limit": float(np.log(0.6 * LEAST))}, LEAST)
+    # no state organises it: no law leaves it
+    assert not is_left({**little, "limit": float(np.log(0.4 * LEAST)), "left": 0.0}, LEAST)
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0])

@@ -5,6 +5,7 @@ import pytest
 from hypotheses import base, decided, left_by, searched
 from slipwise.effects import catalogue
 from slipwise.relations.parameters import Term
+from slipwise.selection import plainer
 from slipwise.selection.plainer import holds_as_limit, plainest
 
 RIM, SPRING = Term(catalogue()["restrainer"]), Term(catalogue()["slide_curvature"])
@@ -16,6 +17,18 @@ def test_a_rim_must_explain_a_share_of_what_a_spring_leaves(with_gap: float, nam
     rim, spring = left_by(RIM, of=of, pads=with_gap), left_by(SPRING, of=of, pads=9.0)
     assert plainest(searched(of, rim, spring), rim)[1].terms == (named,)
     assert plainest(searched(of, spring, rim), spring)[1].names == ("slide_curvature",), "a spring is no rim"
+
+
+@pytest.mark.parametrize(("gap", "left", "named"), [(1.0, 9.0, SPRING), (10.0, 9.0, RIM), (1.0, 8.0, RIM)])
+def test_at_its_end_an_effect_is_the_plainer_one_whatever_motions_that_are_left_out_seem_to_say(
+    gap: float, left: float, named: Term, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Left-out motions are judged by one linear step, which may go far wrong; all motions together fit alike."""
+    of, low = base(pads=400.0), catalogue()["restrainer"].parameter("limit").low
+    rim = left_by(RIM, of=of, values={"restrainer.limit": gap * low}, pads=left)
+    spring = left_by(SPRING, of=of, pads=9.0)
+    monkeypatch.setattr(plainer, "is_kept", lambda *of: True)
+    assert plainest(searched(of, rim, spring), rim)[1].terms == (named,)
 
 
 def test_beside_another_effect_the_same_is_asked() -> None:
