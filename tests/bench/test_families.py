@@ -168,6 +168,13 @@ def test_both_makers_of_single_sliders_agree_while_they_slide(kind):
             assert np.std((force - other)[sliding]) < 0.03 * np.std(force)
 
 
+def test_friction_that_turns_round_slowly_over_a_long_stroke_is_made_by_both_makers():
+    """The library's law reaches no further than 5 mm: a stroke of 0.16 m asked for 16 mm, and nothing was made."""
+    seed = FAMILIES["sliders"].seeds[26]
+    ode, replay = (build_slider(FAMILIES["sliders"].slider, seed, maker) for maker in MAKERS)
+    assert ode.answer["effects"].keys() == replay.answer["effects"].keys() == {"presliding"}
+
+
 def test_every_effect_of_the_catalogue_can_be_drawn_for_the_library():
     rng = np.random.default_rng(1)
     for base in (rated("bridge1"), draw_rig(rng), draw_rig(rng)):

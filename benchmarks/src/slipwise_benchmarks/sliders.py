@@ -29,6 +29,8 @@ def _force_of_library(bearing: Bearing, drive: Drive) -> Array:
 FORCES: dict[str, Force] = {"ode": Bearing.force, "replay": _force_of_library}
 #: Run -> role, share of the stroke, share of the largest speed.
 _RUNS = {"slow": ("fit", 1.0, 0.25), "fast": ("fit", 0.9, 1.0), "other": ("holdout", 0.7, 0.5)}
+#: Longest slip over which friction turns round that both makers can make [m].
+_LONGEST = 4.9e-3
 #: Sizes of what hides in friction: lowest and highest.
 _HIDDEN: dict[str, tuple[float, float]] = {
     "direction_asymmetry": (0.01, 0.1),
@@ -92,7 +94,7 @@ def _with_hidden(bearing: Bearing, rng: np.random.Generator, names: tuple[str, .
         return bearing
     name = str(rng.choice(names))
     if name == "presliding":
-        return replace(bearing, turning=_log(rng, 3.0e-3, 0.1))
+        return replace(bearing, turning=min(_log(rng, 3.0e-3, 0.1), _LONGEST / bearing.stroke))
     sign = float(rng.choice([-1.0, 1.0])) if name != "breakaway" else 1.0
     return replace(bearing, hidden=((name, sign * _log(rng, *_HIDDEN[name])),))
 
