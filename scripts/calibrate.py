@@ -201,7 +201,7 @@ def said_by_kept(row: Row, right_family: Logistic) -> tuple[Case, bool]:
     if row["verdict"] == "unknown":
         return ({"product": compute_log_odds(1.0 - exact if left else EVEN_ODDS), "floors": 0.0}, row["right"]), True
     named = row["verdict"] in ("named", "ambiguous", "instrument")
-    chance = float(expit(row["product"])) * max(exact, 1.0 - exact)
+    chance = PRODUCT({"product": compute_log_odds(float(expit(row["product"])) * max(exact, 1.0 - exact))})
     of = {"product": compute_log_odds(chance), "floors": float(np.log(max(1.0, row["final_error"]))) if named else 0.0}
     return (of, row["right"]), False
 

@@ -75,7 +75,7 @@ EFFECT = Effect(port="shear", contract=1,
 '''
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_tcu065_with_a_law_of_speed_and_pressure_slides_as_far(tmp_path):
     answer = reference("tcu065_EV_velpressuredep.csv.gz")
     path = tmp_path / "vel_pressure_dep.py"

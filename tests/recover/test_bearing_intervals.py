@@ -11,7 +11,7 @@ from slipwise.bearings.loops import Loop
 from slipwise.bearings.quantities import measure_cycle
 from unit.campaign.slider import text
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.long
 
 DRAWS, LOAD, AREA = 30, 10.0e3, 1.4522e-3
 JUDGED = ("energy", "friction_mean", "friction_peak_speed", "effective_stiffness", "equivalent_damping",

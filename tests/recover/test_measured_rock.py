@@ -8,7 +8,7 @@ from shaking import needs_shared
 from slipwise.campaign import load_campaign
 from slipwise.diagnosis.diagnose import diagnose
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.long
 
 ROCK = """name = "rock basalt"
 rig = "pad"

@@ -15,7 +15,7 @@ pytestmark = pytest.mark.slow
     [
         pytest.param("six_pads", 100.0, 500.0, marks=pytest.mark.long),
         pytest.param("three_pads", None, 2000.0, marks=pytest.mark.long),
-        ("pendulum", 40.0, 100.0),
+        pytest.param("pendulum", 40.0, 100.0, marks=pytest.mark.long),
         *(pytest.param(rig, 100.0, 500.0, marks=pytest.mark.long) for rig in ("three_pads", "pendulum", "building")),
         *(pytest.param(rig, None, 500.0, marks=pytest.mark.long) for rig in ("bridge1", "three_pads", "pendulum")),
     ],

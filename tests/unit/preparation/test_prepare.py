@@ -72,7 +72,7 @@ def heating_alone(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "kind", [pytest.param(kind, marks=() if kind in ("late", "tared") else pytest.mark.long) for kind in FAULTS]
+    "kind", [pytest.param(kind, marks=() if kind == "tared" else pytest.mark.long) for kind in FAULTS]
 )
 def test_every_command_mends_a_fault_says_so_and_tells_the_same_error(sound, heating_alone, kind):
     faulty = FAULTS[kind](sound)
