@@ -211,4 +211,6 @@ def _answers_at(own: Array, pull: Array, variances: Array) -> tuple[Array, Array
     """
     precision = own + np.eye(len(own)) / variances[:, None, :]
     sizes = np.linalg.solve(precision, np.broadcast_to(pull[:, None], (*variances.shape, 1)))[..., 0]
-    return 0.5 * (sizes @ pull - np.linalg.slogdet(precision)[1] - np.sum(np.log(variances), axis=1)), sizes
+    volume = np.linalg.slogdet(precision)[1] + np.sum(np.log(variances), axis=1)
+    worth = 0.5 * (sizes @ pull - volume)
+    return np.asarray(worth, dtype=np.float64), np.asarray(sizes, dtype=np.float64)
