@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from slipwise.campaign.campaign import Campaign, Run
-from slipwise.campaign.zero_state import shifted_zeros
+from slipwise.campaign.zero_state import carries_nothing, shifted_zeros
 from slipwise.errors import InputError, SlipwiseWarning
 from slipwise.record import Record
 from slipwise.rig import Specimen
@@ -50,10 +50,11 @@ def check_same_specimen(campaign: Campaign) -> tuple[str, ...]:
     notes = _different_channels(campaign.runs)
     rig = campaign.specimen
     loads = tuple(f"pad_{pad}_N" for pad in rig.pads)
-    weighing = [run for run in campaign.runs if _weighs(run.record, loads)]
+    records = [run.record for run in campaign.runs]
+    weighing = [run for run in campaign.runs if _weighs(run.record, loads, records)]
     if not weighing or not rig.free:
         return tuple(notes)
-    zeros = shifted_zeros([run.record for run in campaign.runs], loads, rig.weight)
+    zeros = shifted_zeros(records, loads, rig.weight)
     notes += [f"{zero.words}; `slipwise audit` says how to put it right" for zero in zeros]
     if any(zero.tared for zero in zeros):
         return tuple(notes)
@@ -78,9 +79,9 @@ def check_same_specimen(campaign: Campaign) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def _weighs(record: Record, loads: Sequence[str]) -> bool:
+def _weighs(record: Record, loads: Sequence[str], records: Sequence[Record]) -> bool:
     """Return whether all load cells are there and none is dead beside the others: a dead one is no other rig."""
-    if not record.has_all(*loads):
+    if not record.has_all(*loads) or any(carries_nothing(name, record, records, loads) for name in loads):
         return False
     scatter = np.stack([record[name] for name in loads], axis=1).std(axis=0)
     return bool(scatter.min() >= _ALIVE * np.median(scatter))

@@ -50,6 +50,24 @@ class ShiftedZero:
         return f"{name} was set to zero under the girder: its part of the weight, {missing:.4g} kN, is missing in it"
 
 
+def carries_nothing(name: str, record: Record, records: Sequence[Record], loads: Sequence[str]) -> bool:
+    """Return whether a load cell shows no weight in a record, though it does in others, and moves no more than noise.
+
+    Such a cell has died: one that was tared moves as its like, and a pad that never touches is no better in other runs.
+
+    Args:
+        name: of the cell.
+        record: in which it may be dead.
+        records: of all runs.
+        loads: channels of all cells.
+    """
+    there = [abs(float(np.median(r[name]))) for r in records if name in r]
+    if name not in loads or not record.has_all(*loads) or abs(float(np.median(record[name]))) > _NOTHING * max(there):
+        return False
+    moved = float(np.median([np.std(record[other]) for other in loads if other != name]))
+    return float(np.std(record[name])) < _ALIVE * moved
+
+
 def shifted_zeros(records: Sequence[Record], loads: Sequence[str], weight: float) -> tuple[ShiftedZero, ...]:
     """Look at the medians of all runs.
 

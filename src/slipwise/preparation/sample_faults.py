@@ -8,6 +8,7 @@ import numpy as np
 from slipwise.arrays import Array, Mask
 from slipwise.campaign import Campaign, Run
 from slipwise.campaign.wild_samples_of_runs import FAULTY, faulty_share
+from slipwise.campaign.zero_state import carries_nothing
 from slipwise.channels import pads_in
 from slipwise.preparation.level_faults import agreed_late, agreed_turned, dead_in, read_levels, turned_displacements
 from slipwise.preparation.outliers import bridge_outliers
@@ -141,6 +142,9 @@ def _dead(name: str, runs: Sequence[Run], specimen: Specimen, idle: Collection[s
     constant = {run.name for run in runs if np.ptp(run.record[name]) == 0.0}
     still = set(idle) if len(constant) == len(runs) else constant | set(idle)
     still |= {run.name for run in runs if _idle_beside_its_like(name, run, specimen)}
+    if specimen.free:
+        records, loads = [run.record for run in runs], [f"pad_{pad}_N" for pad in specimen.pads]
+        still |= {run.name for run in runs if carries_nothing(name, run.record, records, loads)}
     if not still:
         return None
     still |= {run.name for run in runs if _shows_what_it_shows_when_dead(name, run, still, runs)}

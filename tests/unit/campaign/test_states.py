@@ -8,6 +8,7 @@ import pytest
 from slipwise.campaign import Campaign, load_campaign, measured_states
 from slipwise.campaign.same_specimen import check_same_specimen
 from slipwise.errors import InputError, SlipwiseWarning
+from slipwise.preparation.sample_faults import find_sample_faults
 from slipwise.record import Record
 from slipwise_benchmarks import build_campaign
 from slipwise_benchmarks.in_memory import as_campaign
@@ -132,12 +133,17 @@ def test_a_stated_mass_that_the_load_cells_contradict_is_warned_of(made):
     assert check_same_specimen(with_mass(1.03)) == ()
 
 
-def test_a_load_cell_that_is_dead_in_one_run_is_no_other_rig(made):
+@pytest.mark.parametrize("noise", [0.001, 0.05])
+def test_a_load_cell_that_is_dead_in_one_run_is_no_other_rig_and_found(made, noise: float) -> None:
+    """However noisy it is: a run in which the others hardly move refused a campaign."""
     campaign = as_campaign(made)
     first, *others = campaign.runs
-    dead = np.random.default_rng(3).normal(0.0, 2.0, len(first.record))
-    runs = (replace(first, record=first.record.replaced(pad_A_N=dead)), *others)
-    assert not any("carry" in note for note in check_same_specimen(replace(campaign, runs=runs)))
+    spread = noise * float(np.std(first.record["pad_B_N"]))
+    dead = np.random.default_rng(3).normal(0.0, spread, len(first.record))
+    broken = replace(campaign, runs=(replace(first, record=first.record.replaced(pad_A_N=dead)), *others))
+    assert not any("carry" in note for note in check_same_specimen(broken))
+    (fault,) = [f for f in find_sample_faults(broken) if f.kind == "dead"]
+    assert (fault.channels, fault.runs) == (("pad_A_N",), (first.name,))
 
 
 def test_a_clipped_accelerometer_is_no_other_rig(made, tmp_path):
