@@ -37,11 +37,14 @@ _MIDDLE, _BEYOND = 4.0 / np.pi, 2.0
 #: Frequencies [Hz] and damping [1] of a mode that an audit tries, and what shakes it, by preference.
 _FREQUENCIES, _DAMPINGS = tuple(np.geomspace(4.0, 36.0, 36)), (0.01, 0.03)
 _VERTICAL = ("table_az", "girder_az", "girder_az_1")
+#: A share of the mass that a fit has led to nothing [1].
+_WEIGHTLESS = 1e-9
 
 
 def rig(specimen: Specimen, share: float, frequency: float, damping: float) -> Specimen:
-    """Return the specimen with a part of its mass in the mode."""
-    return replace(specimen, bending_mass=share * specimen.mass, bending_frequency=frequency, bending_damping=damping)
+    """Return the specimen with a part of its mass in the mode; none of so small a part that no body can be made of."""
+    mass = share * specimen.mass if share > _WEIGHTLESS else 0.0
+    return replace(specimen, bending_mass=mass, bending_frequency=frequency, bending_damping=damping)
 
 
 def balance(states: BalanceStates, share: float, frequency: float, damping: float, midspan: float) -> dict[str, Array]:
