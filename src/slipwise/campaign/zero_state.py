@@ -61,8 +61,10 @@ def carries_nothing(name: str, record: Record, records: Sequence[Record], loads:
         records: of all runs.
         loads: channels of all cells.
     """
-    there = [abs(float(np.median(r[name]))) for r in records if name in r]
-    if name not in loads or not record.has_all(*loads) or abs(float(np.median(record[name]))) > _NOTHING * max(there):
+    if name not in loads or not record.has_all(*loads):
+        return False
+    carried = max(abs(float(np.median(r[name]))) for r in records if name in r)
+    if abs(float(np.median(record[name]))) > _NOTHING * carried:
         return False
     moved = float(np.median([np.std(record[other]) for other in loads if other != name]))
     return float(np.std(record[name])) < _ALIVE * moved
