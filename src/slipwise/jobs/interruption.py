@@ -1,6 +1,7 @@
 """Ctrl-C and the signals that ask a program to end, as an exception: what is half-done is tidied up on its way."""
 
 import _thread
+import ctypes
 import multiprocessing
 import signal
 import sys
@@ -88,6 +89,19 @@ def _send_again(number: signal.Signals, handler: Callable[[int, FrameType | None
         signal.pthread_kill(threading.main_thread().ident or 0, number)
     else:
         _thread.interrupt_main(number)
+
+
+class CalledOff(BaseException):
+    """Raised inside the work of a thread that nobody waits for any more."""
+
+
+def call_off_thread(thread: int) -> None:
+    """Raise `CalledOff` in a thread at its next step; a finaliser that is at work there swallows it: then ask again.
+
+    Args:
+        thread: its identifier, as `threading.get_ident` gives it; nothing happens where it has ended.
+    """
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), ctypes.py_object(CalledOff))
 
 
 @contextmanager

@@ -1,11 +1,13 @@
 """The session is opened beside the server: the page is there at once, and is told when the session stands."""
 
 import asyncio
+import threading
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from slipwise.errors import SlipwiseError
+from slipwise.jobs.interruption import call_off_thread
 from slipwise.session.campaign_folder import CampaignFolder
 
 if TYPE_CHECKING:  # what it takes to load them is what the page need not wait for
@@ -14,6 +16,8 @@ if TYPE_CHECKING:  # what it takes to load them is what the page need not wait f
 
 #: A page that is on its way is waited for so long, to be told why nothing opens [s].
 _ON_ITS_WAY = 10.0
+#: An opening that goes on though nobody waits for it is called off again after so long [s].
+_PATIENCE = 1.0
 
 
 class Opening:
@@ -33,6 +37,7 @@ class Opening:
         self._task: asyncio.Task[Room] | None = None
         self._lost: SlipwiseError | None = None
         self._page_comes = False
+        self._thread: int | None = None
 
     def begin(self) -> None:
         """Open the room beside the running loop."""
@@ -61,9 +66,12 @@ class Opening:
         return await asyncio.shield(self._task)
 
     async def end(self) -> None:
-        """Close the room, if it was opened, as soon as it can be."""
+        """Close the room; one that is being opened is given up."""
         if self._task is not None:
-            await asyncio.wait([self._task])
+            while not self.done:  # to load and to compile what a session needs can take a minute
+                if self._thread is not None:
+                    call_off_thread(self._thread)
+                await asyncio.wait([self._task], timeout=_PATIENCE)
             if self._task.exception() is None:
                 try:
                     self._task.result().close()
@@ -93,9 +101,13 @@ class Opening:
         return room
 
     def _opened(self) -> "Room":
-        from slipwise.workbench.hub import Room
+        self._thread = threading.get_ident()
+        try:
+            from slipwise.workbench.hub import Room
 
-        room = Room(self.campaign, self._trust)
-        if room.session.store is not None:
-            room.session.store.tell(self._address)
+            room = Room(self.campaign, self._trust)
+            if room.session.store is not None:
+                room.session.store.tell(self._address)
+        finally:
+            self._thread = None
         return room
