@@ -5,6 +5,7 @@ import time
 
 from slipwise.workbench.startup import Opening
 
+
 class SlowRoom:
     """A room that opens as slowly as after an installation, and swallows the first wish to end, as a finaliser does."""
 
