@@ -4,7 +4,7 @@
     python scripts/17_verdicts.py --out out/families
     python scripts/calibrate.py out/families
     python scripts/calibrate.py out/families --check    # writes nothing
-    python scripts/calibrate.py --whole benchmarks/results/verdicts.jsonl
+    python scripts/calibrate.py --whole benchmarks/results/verdicts.jsonl --lines 334
 
 Each model is a logistic regression in a few numbers (ridge 1 on numbers of unit spread, signs of the weights held to
 what more of a number can only mean): whether an effect that was found is there, whether its size is what the
@@ -183,9 +183,10 @@ def chances_of(said: Sequence[tuple[Case, bool]], whole: Logistic) -> list[tuple
     return [((PRODUCT if unknown else whole)(of), good) for (of, good), unknown in said]
 
 
-def read_kept(file: Path) -> list[Row]:
-    """Give the kept verdicts that say what they rest on."""
-    return [row for row in map(json.loads, file.read_text(encoding="utf-8").splitlines()) if "product" in row]
+def read_kept(file: Path, lines: int | None) -> list[Row]:
+    """Give the kept verdicts that say what they rest on, of the first lines or of all."""
+    kept = file.read_text(encoding="utf-8").splitlines()[:lines]
+    return [row for row in map(json.loads, kept) if "product" in row]
 
 
 def kept_cases_of_family(rows: Sequence[Row]) -> list[Case]:
@@ -213,13 +214,14 @@ def main() -> None:
         "source", type=Path, help="a folder with verdicts.jsonl and answers, of 17_verdicts.py, or a file"
     )
     parser.add_argument("--whole", action="store_true", help="fit the last model alone, to a file of kept verdicts")
+    parser.add_argument("--lines", type=int, help="of that file, from the first; the others can be a test")
     parser.add_argument("--check", action="store_true", help="write nothing")
     chosen = parser.parse_args()
     content = json.loads(OUT.read_text(encoding="utf-8"))
     before = Calibration(**{n: Logistic(of["constant"], of["weights"]) for n, of in content["models"].items()})
     today = f"{datetime.now(UTC):%Y-%m-%d}"
     if chosen.whole:
-        rows = read_kept(chosen.source)
+        rows = read_kept(chosen.source, chosen.lines)
         left = kept_cases_of_family(rows)
         family = fitted(left, FAMILY, before.right_family)
         said = [said_by_kept(row, family) for row in rows]
