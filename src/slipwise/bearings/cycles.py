@@ -35,7 +35,8 @@ class Cycle:
         start: place of its first crossing, in samples from the first one; whole or between two samples.
         end: place of the next crossing.
         series: number of the series of fully reversed cycles of one stroke that it belongs to, from 1; 0 where it does
-            not go as far to one side as to the other, there and back, or has no neighbour of its stroke.
+            not go as far to one side as to the other, there and back, or has no neighbour of its stroke where others
+            have one.
     """
 
     start: float
@@ -138,7 +139,8 @@ def _arrival(away: Array, last: int, clear: float) -> float:
 def _number_series(cycles: list[Cycle], away: Array, steps: Array) -> tuple[Cycle, ...]:
     """Return the cycles, with the number of their series where two or more follow each other at one stroke.
 
-    A run whose only closed cycle is one has that one as its series.
+    A run whose only closed cycle is one has that one as its series. So has each cycle of a run that goes from stroke to
+    stroke, one cycle of each; the lone cycles of a run with longer series are its rise and its end.
     """
     strokes = [_reversed_stroke(away, steps, cycle) for cycle in cycles]
     groups: list[list[int]] = []
@@ -147,7 +149,9 @@ def _number_series(cycles: list[Cycle], away: Array, steps: Array) -> tuple[Cycl
             groups[-1].append(place)
         elif stroke:
             groups.append([place])
-    kept = groups if len(groups) == 1 else [group for group in groups if len(group) > 1]
+    kept = [group for group in groups if len(group) > 1]
+    if not kept and (len(groups) == 1 or all(strokes)):
+        kept = groups
     number = {place: n for n, group in enumerate(kept, start=1) for place in group}
     return tuple(replace(cycle, series=number.get(place, 0)) for place, cycle in enumerate(cycles))
 

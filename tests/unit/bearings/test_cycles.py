@@ -45,6 +45,12 @@ def test_each_stroke_is_a_series_of_its_own():
     assert len(found.longest_series) == 2
 
 
+def test_in_a_run_of_one_cycle_at_each_stroke_every_cycle_is_given():
+    time, slip = motion()
+    found = find_cycles(slip * (1.0 + np.floor(time)))
+    assert [c.series for c in found.cycles] == [1, 2, 3, 4] and found.cyclic
+
+
 def test_an_earthquake_is_no_cyclic_motion():
     rng = np.random.default_rng(3)
     time = np.arange(0.0, 20.0, 1.0 / RATE)
