@@ -6,18 +6,13 @@
 Of each law, a seed of `11_discover.py`: its effect file is added to the campaign that it comes from, and the error told
 comes again or does not; it is held against a second campaign with the same law, another size of it, other motions and
 another rig, and against a third without it, every other time with another law; and it is looked for once more where
-every gauge has twice the noise. Then each effect of `TAKEN_OUT` is planted alone and looked for by a copy of the
-library that has no such effect.
+every gauge has twice the noise. Then each effect of `TAKEN_OUT` is planted alone and looked for by a catalogue
+without it.
 
 Every finished law or effect is one line of results.jsonl, and the same command goes on where it stopped.
 """
 
 import argparse
-import json
-import os
-import shutil
-import subprocess
-import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -27,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import slipwise as sw
-from slipwise.effects import find_effect
+from slipwise.effects import catalogue, find_effect
 from slipwise_benchmarks import make_law_campaign
 from slipwise_benchmarks.dirty import build_dirty
 from slipwise_benchmarks.dirty_plan import Plan
@@ -134,26 +129,15 @@ def seen_states(said: dict[str, Any]) -> dict[str, Any]:
 
 
 def look_for_taken_out(out: Path, effect: str) -> dict[str, Any]:
-    """Plant an effect alone, and look for it by a copy of the library without that effect."""
+    """Plant an effect alone, take it out of the catalogue of this process for good, and look for it."""
     seed = 57_900 + list(TAKEN_OUT).index(effect)
     plant = Plant(effect, 1.0, seed, False, 3.0, 6.0)
     plan = Plan("one or two", (plant,), (), rich=False, runs=5, short=False, uplift=False)
     logger = replace(draw_logger(np.random.default_rng([seed, 43]), USUAL), late={})
     made = build_dirty(seed, name=effect, plan=plan, logger=logger)
     write_campaign(out / effect, made.truth.rig, logger, made.recorded, made.truth.roles)
-    copy = out / f"without_{effect}"
-    if not copy.exists():
-        shutil.copytree(Path(sw.__file__).parent, copy / "slipwise", ignore=shutil.ignore_patterns("__pycache__"))
-        (copy / "slipwise" / "effects" / f"{effect}.py").unlink()
-    code = "import sys, json, slipwise; print(json.dumps(slipwise.discover(sys.argv[1]).as_json()))"
-    # a folder on PYTHONPATH goes before an installed package
-    done = subprocess.run(
-        [sys.executable, "-c", code, str(out / effect)], env={**os.environ, "PYTHONPATH": str(copy)},
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    if done.returncode:
-        return {"name": effect, "evidence": "failed", "states": [], "words": done.stderr[-300:]}
-    return {"name": effect, **seen_states(json.loads(done.stdout.splitlines()[-1]))}
+    catalogue().pop(effect)  # every job has a process of its own
+    return {"name": effect, **seen_states(sw.discover(out / effect).as_json())}
 
 
 def score(rows: Sequence[dict[str, Any]]) -> dict[str, tuple[int, int]]:
