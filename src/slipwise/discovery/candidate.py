@@ -21,7 +21,7 @@ class CurveCandidate:
         gate: on which pads, and which way.
         curve: over the states, everything else integrated out.
         share: of what is left without it, beside the same effects of the catalogue, that it explains, each motion by
-            what the others ask for [1].
+            what the others ask for [1]; 0 where that makes them worse, and where nothing is left.
         evidence: by how much more likely the data are with it than with effects of the catalogue alone, its prior
             counted [nats].
         beside: label of every effect of the catalogue that is likely beside it -> values of its parameters.

@@ -191,7 +191,7 @@ def _sorted(found: Sequence[tuple[_Made, Weighed, CurveCandidate]]) -> list[tupl
 
 def _candidate(system: CurveSystem, one: _Made, weighed: Weighed) -> CurveCandidate:
     curve, excess = curve_by_blocks(system, weighed, one.products, one.columns)
-    share = curve.carried_over() / excess
+    share = max(curve.carried_over() / excess, 0.0)
     return CurveCandidate(one.of.states, one.of.port, one.of.gate, curve, share, weighed.evidence + one.prior)
 
 

@@ -209,6 +209,11 @@ def _not_confirmed(found: Discovery) -> str:
     if best is None:
         return "no state and form explain half of what the model leaves"
     share = f"{100 * found.share:.0f} %"
+    if share == "0 %":
+        return (
+            "no state and form explain half of what the model leaves; with the likeliest state and place, "
+            f"{best.label}, each motion asks for another curve than the others"
+        )
     if found.share < 0.5:
         return f"no state and form explain half of what the model leaves; most, {share}, goes with {best.label}"
     left = f"what the model leaves in {best.port.relation}"

@@ -227,6 +227,14 @@ def test_the_page_says_first_where_there_is_no_law(found, unknown, nothing):
     )  # one of them twice, for a phone too
 
 
+def test_a_curve_that_no_other_motion_confirms_is_no_share_of_anything(unknown):
+    """It was told as "most, -1820 %, goes with" it."""
+    without = replace(unknown, share=0.0)
+    assert "each motion asks for another curve" in without.sentence and "%" not in without.sentence
+    page = discovery_page(without)
+    assert "each motion asks for another curve" in page and "Most, " not in page
+
+
 def test_the_recording_holds_the_pictures_and_the_dots_of_the_pads(found, tmp_path):
     path = write_discovery_recording(found, tmp_path / "discovery.rrd")
     entities = {chunk.entity_path for chunk in RrdReader(path).stream()}
