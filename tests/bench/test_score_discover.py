@@ -158,6 +158,17 @@ def test_half_a_turn_more_is_a_wave_of_the_other_sign():
     assert all(row["within"] for row in constant_rows([_result(truth, said)]))
 
 
+def test_numbers_as_they_come_from_a_search_are_counted_as_those_that_were_read_back():
+    """The scores of a bench that ran to its end were lost: numpy's integers are nothing that JSON knows."""
+    truth = _truth("speed bump")
+    said = _said(truth, after=np.float64(1.05))
+    for one in said["laws"][0]["constants"].values():
+        one |= {key: np.float64(one[key]) for key in ("value", "low", "high")}
+    results = [_result(truth, said)]
+    json.dumps([rates(results), constant_rows(results)])
+    assert rates(results)["held-out error at most 1.25 floors"] == [1, 1]
+
+
 def test_stored_discoveries_are_scored_as_they_were_meant():
     results = json.loads(STORED.read_text(encoding="utf-8"))
     counted = rates(results)

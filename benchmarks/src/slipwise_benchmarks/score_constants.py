@@ -115,6 +115,6 @@ def _wave(name: str, law: Given, found: Mapping[str, dict[str, float]]) -> dict[
 
 def _row(true: float, said: Mapping[str, float], tolerance: float) -> dict[str, Any]:
     low, high = sorted((said.get("low", said["value"]), said.get("high", said["value"])))
-    inside = "low" in said and "high" in said and low <= true <= high
-    within = abs(said["value"] - true) <= tolerance
+    inside = "low" in said and "high" in said and bool(low <= true <= high)
+    within = bool(abs(said["value"] - true) <= tolerance)
     return {"true": true, "value": said["value"], "low": low, "high": high, "within": within, "inside": inside}

@@ -134,9 +134,9 @@ def rates(results: Sequence[Result]) -> dict[str, list[int]]:
         truth, said = result["truth"], result["said"]
         if in_library(truth):
             for name, check in _OF_LAWS.items():
-                flags[name].append(check(truth, said))
+                flags[name].append(bool(check(truth, said)))  # numpy's own truth adds up to what JSON has not
         for name, check in _OF_ALL.items():
-            flags[name].append(check(truth, said))
+            flags[name].append(bool(check(truth, said)))
         for name, belongs in _WITHOUT.items():
             if belongs(truth):
                 flags[name].append(claims_law(said))
