@@ -211,7 +211,7 @@ def _search(diagnosis: Diagnosis, tell: Callable[[str, float], None]) -> _Answer
     now = leaders[-1][0].objective if leaders else LawObjective(pad_instants(objective, solution.values), objective, ())
     cannot = tuple(_cannot_judge(now))
     left = max(solution.residuals.level(r, objective.fitted) for r in objective.relations)
-    organised = candidates[0] if candidates else None
+    organised = next((c for c in candidates[:1] if c.evidence > 0.0), None)  # else the catalogue alone is as likely
     dirt = compute_dirt(ground.system) if ground and leaders else {}
 
     def answer(kept: list[_Leader]) -> _Answer:

@@ -267,8 +267,8 @@ def _matches(weighed: Sequence[CurveCandidate]) -> list[Match]:
         kept.setdefault((*(s.name for s in c.states), c.port.name, c.gate.name), c)
     every = [m for c in list(kept.values())[:_CANDIDATES] for m in matched(c, forms())[:_FORMS]]
     every.sort(key=_evidence, reverse=True)
-    alone = [m for m in every if len(m.forms) == 1]
-    return [*every[:_FITTED], *(m for m in alone[:_SINGLE] if m not in every[:_FITTED])]
+    alone = [place for place, m in enumerate(every) if len(m.forms) == 1]
+    return [*every[:_FITTED], *(every[place] for place in alone[:_SINGLE] if place >= _FITTED)]
 
 
 def _evidence(match: Match) -> float:

@@ -186,6 +186,7 @@ def free_numbers(campaign: Campaign, model: Model, objective: Objective) -> list
     if not model.specimen.free and ZERO not in list_replaced_numbers(u.effect for u in model.uses):
         zero = free_zero(objective.fitted_runs)
         free += [zero] if zero else []
+    free += [make_free_inertia(objective.specimen, key) for key in objective.inertias]
     return [
         replace(f, high=min(f.high, most), start=min(f.start, most)) if f.key == "rig.stick_length" else f for f in free
     ]
@@ -216,8 +217,9 @@ def _fitted(campaign: Campaign, model: Model, objective: Objective, start: Mappi
         solution = solve(objective, weighed, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
     if _yaw_improves_fit(objective, solution):
         objective = objective.with_yaw()
-        free.append(make_free_inertia(model.specimen, YAW_INERTIA))
-        start = {**solution.values, free[-1].key: free[-1].start}
+        if YAW_INERTIA not in solution.values:  # no effect of the model turns the girder
+            free.append(make_free_inertia(model.specimen, YAW_INERTIA))
+        start = {**{f.key: f.start for f in free}, **solution.values}
         solution = solve(objective, start, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
     return BaseFit(campaign, model, objective, tuple(free), solution)
 

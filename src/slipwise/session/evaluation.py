@@ -14,7 +14,7 @@ from slipwise.estimation.objective import Objective, make_objective
 from slipwise.model import Model, base_model
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
-from slipwise.relations.parameters import Free, make_free_inertia, make_stick_damping, make_terms
+from slipwise.relations.parameters import Free, make_stick_damping, make_terms
 from slipwise.relations.run_data import FitRun, fit_runs
 from slipwise.relations.table import Residuals
 from slipwise.session.state import SessionState, Weights
@@ -101,7 +101,6 @@ class Evaluator:
         free = [f for f in free_numbers(self.prepared.campaign, model, objective) if f.key not in single]
         for term in cards:
             free += term.free({n: state.values[f"{term.label}.{n}"] for n in term.effect.parameter_names})
-        free += [make_free_inertia(objective.specimen, key) for key in objective.inertias]
         if "rig.stick_damping" in state.values and any(f.key == "rig.stick_length" for f in free):
             free.append(make_stick_damping(self.runs[0].scales.time))
         return free

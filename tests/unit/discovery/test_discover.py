@@ -36,7 +36,7 @@ def told(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Discovery]:
         law = left_by("heating", of=diagnosis.final, pads=fitted, held_out={"pads": held_out})
         port, gate = SimpleNamespace(relation="pads", name="adds to mu"), SimpleNamespace(name="all")
         states = (SimpleNamespace(name="speed"),)
-        candidate = SimpleNamespace(share=0.99, port=port, gate=gate, beside={}, states=states)
+        candidate = SimpleNamespace(share=0.99, evidence=9.0, port=port, gate=gate, beside={}, states=states)
         match = SimpleNamespace(candidate=candidate, free=(), forms=("form",))
         placed = SimpleNamespace(match=match, lag=0.0, label="law")
         objective = SimpleNamespace(plain=law.objective, every=None, fitted=diagnosis.final.objective.fitted)

@@ -6,6 +6,8 @@ import pytest
 import slipwise as sw
 from session_campaign import MISSING
 from slipwise.errors import SettingError, UnitError, UnknownNameError
+from slipwise.model import base_model, use
+from slipwise.session.session import Session
 
 
 def error(session, relation="pads", state=None):
@@ -152,3 +154,11 @@ def test_a_notebook_shows_table_and_picture(back):
     shown = back._repr_mimebundle_()
     assert "<table" in shown["text/html"] and "data:image/png;base64," in shown["text/html"]
     assert "pad friction" in shown["text/html"]
+
+
+def test_a_model_whose_effect_speaks_of_an_inertia_begins_with_that_inertia(written):
+    """What was added to such a model could not be fitted: the inertia was free and had no value."""
+    model = base_model("bridge1").adding(use("table_pitch"))
+    session = Session(written, model, keep=False)
+    free = {f.key for f in session.ready.free(session.state)}
+    assert "rig.pitch_inertia" in free and free <= session.state.values.keys()
