@@ -185,7 +185,7 @@ def hold_law_against(found: Diagnosis, law: Effect) -> LawTest:
     return LawTest(
         law=law.name,
         campaign=found.campaign,
-        holds=_judge(nats),
+        holds=judge(nats, (ends[0], ends[1])),
         size=sized.values[key] * factor,
         low=ends[0],
         high=ends[1],
@@ -201,12 +201,18 @@ def _intervals(base: BaseFit, objective: Objective, solution: Solution) -> dict[
     return {i.key: i for i in compute_two_sided_intervals(fit).entries}
 
 
-def _judge(nats: Sequence[float]) -> str:
-    """Return how a law holds by the likelihoods without it, as it stands, with its size free, with all free [nats]."""
+def judge(nats: Sequence[float], size: tuple[float, float]) -> str:
+    """Return how a law holds.
+
+    Args:
+        nats: likelihoods without it, as it stands, with its size free, and with all of its numbers free.
+        size: ends of the 95 % interval of its size, over that of its file [1]; one that holds zero is none.
+    """
     without, stands, sized, freed = nats
-    if freed - without < _THERE:  # nothing like it is there; is it missed where it should be seen?
+    other = freed - sized > _THERE
+    if freed - without < _THERE or (not other and size[0] <= 0.0 <= size[1]):  # should it be seen here?
         return "not at all" if without - stands > _NEEDED else "cannot tell"
-    if freed - sized > _THERE:
+    if other:
         return "with other constants"
     return "with another size" if sized - stands > _NEEDED else "as it stands"
 
