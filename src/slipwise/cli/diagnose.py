@@ -184,7 +184,7 @@ def _diagnose_one(
                 tell("refitting what was asked about", 1.0)
                 found = found.with_why_not(*why_not)
         tests = sw.hold_laws_against(found, own)
-        _show(found, folder, recording and measured.specimen.free, figures, json, timings, tests)
+        found = _show(found, folder, recording and measured.specimen.free, figures, json, timings, tests)
         if session is not None:
             _accept(found, session, ERR if json else OUT)
         if not json:
@@ -206,7 +206,7 @@ def _next_steps(found: "sw.Diagnosis", campaign: Path, accepted: bool) -> list[s
     place, kind = quote(str(campaign)), found.verdict.kind
     if kind == "ambiguous":
         return [f"`slipwise next {place}` for a motion that tells them apart"]
-    if kind == "unknown":
+    if kind == "unknown" or found.law:
         return [f"`slipwise discover {place}` for its law"]
     if found.verdict.is_doubtful:
         return [f"`slipwise next {place}` for a motion that would tell more"]
@@ -234,7 +234,8 @@ def _show(
     json: bool,
     timings: bool,
     tests: "sw.LawTests",
-) -> None:
+) -> "sw.Diagnosis":
+    """Print a diagnosis and write its files; gives it with the law of what has no name, where one is found."""
     from slipwise.view.files import save_json
 
     try:
@@ -254,6 +255,7 @@ def _show(
     if timings:
         for words, seconds in {**found.stages, **times}.items():
             say(f"{seconds:6.1f} s  {words}", ERR if json else OUT)
+    return found
 
 
 def _with_law(found: "sw.Diagnosis", console: Console) -> "sw.Diagnosis":
@@ -270,7 +272,9 @@ def _with_law(found: "sw.Diagnosis", console: Console) -> "sw.Diagnosis":
         say(f"no law could be looked for: {error}", console)
         return found
     if found.law:
-        say(f"{found.law['words']} `slipwise discover` writes it as an effect.", console)
+        from slipwise.view.words.diagnosis_words import law_words
+
+        say(law_words(found), console)
     return found
 
 

@@ -218,12 +218,11 @@ class Diagnosis(Drawn, Tabular):
                 clean = is_at_floor(self.base_error) and not self.verdict.minor
                 least = "above the noise" if clean else "that matters"
                 return f"Nothing {least} is missing ({_short(self.base_error)} times the floor; {chance}){self._minor}."
+            case "named" | "instrument" if self.verdict.is_doubtful:
+                what = "missing" if self.verdict.kind == "named" else "missing, or a gauge is at fault"
+                best = f"The best account of it, {names}{beside}, is more likely wrong in part than right ({chance})"
+                return f"Something is {what}. {best}; {fall}{self._minor}{self._bounds}."
             case "named":
-                if self.verdict.is_doubtful:
-                    best = (
-                        f"The best account of it, {names}{beside}, is more likely wrong in part than right ({chance})"
-                    )
-                    return f"Something is missing. {best}; {fall}{self._minor}{self._bounds}."
                 return f"The model lacks {names}{beside} ({chance}); {fall}{self._minor}{self._bounds}."
             case "instrument":
                 return f"A gauge is at fault: {names}{beside} ({chance}); {fall}{self._minor}{self._bounds}."
@@ -237,6 +236,12 @@ class Diagnosis(Drawn, Tabular):
                 if self.verdict.is_doubtful:
                     what = f"What is left matters and has no name; a law outside the catalogue is not likely ({chance})"
                 return f"{what}. {shape[0].upper()}{shape[1:]}{self._nearest}."
+
+    @property
+    def needless_with_law(self) -> tuple[str, ...]:
+        """Effects that are named and do not stand beside the proposed law: they stood for a part of it."""
+        beside = self.verdict.effects if self.law is None else self.law["beside"]
+        return tuple(name for name in self.verdict.effects if name not in beside)
 
     @property
     def _nearest(self) -> str:

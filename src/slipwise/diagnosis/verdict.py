@@ -72,7 +72,7 @@ class Verdict:
     @property
     def is_doubtful(self) -> bool:
         """Whether the names, all together, or that something outside the catalogue is missing, are likelier wrong."""
-        return self.kind in ("named", "unknown") and self.probability < EVEN_ODDS
+        return self.kind in ("named", "instrument", "unknown") and self.probability < EVEN_ODDS
 
 
 def compute_explained_share_of_base(origin: Hypothesis, found: Hypothesis, relation: str = "") -> float:

@@ -119,6 +119,7 @@ class Discovery(Drawn, Tabular):
             "form": law.form,
             "file": str(self.files[0]) if self.files else None,
             "share": self.share,
+            "beside": list(self.beside),
             "words": self.sentence,
         }
 

@@ -98,7 +98,8 @@ def _headline(found: Diagnosis) -> str:
     if kind == "complete" and found.verdict.minor:
         return "Nothing that matters is missing"
     if found.verdict.is_doubtful:
-        return f"Something is missing; nearest: {names}" if names else "Something is left that has no name"
+        what = "missing, or a gauge is at fault" if kind == "instrument" else "missing"
+        return f"Something is {what}; nearest: {names}" if names else "Something is left that has no name"
     if kind == "named" and len(found.verdict.effects) > 1:
         return f"{in_words(len(found.verdict.effects)).capitalize()} effects are missing: {names}"
     return _HEADLINES[kind] + (f": {names}" if names else "")

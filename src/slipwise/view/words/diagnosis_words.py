@@ -81,7 +81,9 @@ def _next_words(found: Diagnosis) -> str:
     if found.discriminating_tests:
         return f"To tell them apart: {found.discriminating_tests[0]}"
     if found.law:
-        return f"{found.law['words']} `slipwise discover` writes it as an effect."
+        return law_words(found)
+    if found.verdict.is_doubtful and found.verdict.kind != "unknown":
+        return "Another run before anything is built on it: `slipwise next CAMPAIGN` says which motion would tell most."
     match found.verdict.kind:
         case "instrument":
             return "See to the gauge, or correct it: `slipwise audit` says how."
@@ -89,9 +91,16 @@ def _next_words(found: Diagnosis) -> str:
             return "`slipwise discover` looks for its law."
         case "complete":
             return "Nothing: the model may be used as far as these motions go."
-    if found.verdict.is_doubtful:
-        return "Another run before anything is built on it: `slipwise next CAMPAIGN` says which motion would tell most."
     return f"Put it into the model: `slipwise diagnose CAMPAIGN --accept`. Then: {found.left_over}."
+
+
+def law_words(found: Diagnosis) -> str:
+    """Say which law is proposed, and what that is named is not needed with it; "" without one."""
+    if not found.law:
+        return ""
+    needless = found.needless_with_law
+    less = f"With it, {', '.join(needless)} {'is' if len(needless) == 1 else 'are'} not needed." if needless else ""
+    return " ".join(filter(None, [found.law["words"], less, "`slipwise discover` writes it as an effect."]))
 
 
 def weighed(found: Verdict) -> tuple[str, ...]:

@@ -65,6 +65,11 @@ def test_a_name_that_is_more_likely_wrong_than_right_is_no_instruction_to_build_
     assert said.startswith("Something is missing. The best account of it, heating, is more likely wrong")
     assert "(10 %)" in said and "slipwise next" in dict(four_answers(doubtful))["What next?"]
     assert "Something is missing; nearest: heating<" in diagnosis_page(doubtful)
+    gauge = replace(doubtful, verdict=replace(doubtful.verdict, kind="instrument"))
+    assert gauge.sentence.startswith(
+        "Something is missing, or a gauge is at fault. The best account of it, heating, is"
+    )
+    assert "slipwise next" in dict(four_answers(gauge))["What next?"] and "at fault; nearest" in diagnosis_page(gauge)
 
 
 def test_nothing_is_called_held_out_where_every_run_was_fitted():

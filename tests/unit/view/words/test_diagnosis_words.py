@@ -13,6 +13,8 @@ from slipwise.view.words.diagnosis_words import (
     confirmed_words,
     error_name,
     floors,
+    four_answers,
+    law_words,
     limits_words,
     minor_words,
     percent,
@@ -84,6 +86,16 @@ def test_what_much_is_left_of_is_not_confirmed_though_its_error_falls() -> None:
     found = diagnosed(searched(of, left_by("heating", of=of, pads=100.0, held_out={"pads": 100.0})))
     words = confirmed_words(found)
     assert words.startswith("Not confirmed: on sine_holdout_2, which no fit has seen, 10.00 noise floors, 10 % of")
+
+
+def test_what_stood_for_a_part_of_the_law_is_said_not_to_be_needed_with_it() -> None:
+    """`add` of a gauge's gain was advised where the law explains everything without it."""
+    found = _found("heating", "table_pitch")
+    law = {"words": "A law: of the speed.", "beside": ["table_pitch"]}
+    said = law_words(replace(found, law=law))
+    assert said == "A law: of the speed. With it, heating is not needed. `slipwise discover` writes it as an effect."
+    assert "not needed" not in law_words(replace(found, law={**law, "beside": ["heating", "table_pitch"]}))
+    assert law_words(found) == "" and dict(four_answers(replace(found, law=law)))["What next?"] == said
 
 
 def test_effects_that_lack_the_same_are_told_in_one_line() -> None:
