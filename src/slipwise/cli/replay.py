@@ -9,7 +9,11 @@ import typer
 
 import slipwise as sw
 from slipwise.cli.console import can_record, out_folder, print_json, progress, say, say_next
+from slipwise.cli.options import Trusted
 from slipwise.errors import SettingError, SlipwiseError
+
+#: Rig that is shaken where none is said.
+_RIG = "bridge1"
 
 
 def replay(
@@ -17,8 +21,15 @@ def replay(
         list[str], typer.Argument(help="Files of a recorded motion, or one synthetic: see `slipwise motions`.")
     ],
     rig: Annotated[
-        str, typer.Option(help="A name of `slipwise rigs`, or the path of a specimen.toml or an MJCF file.")
-    ] = "bridge1",
+        str | None,
+        typer.Option(
+            help="A name of `slipwise rigs`, or the path of a specimen.toml or an MJCF file; bridge1 if not given."
+        ),
+    ] = None,
+    model: Annotated[
+        Path | None, typer.Option(help="A model.toml, for one that was fitted: its rig, its laws and their sizes.")
+    ] = None,
+    trust: Trusted = False,
     out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("out/replay"),
     x: Annotated[
         str | None, typer.Option(help="What shakes along x: a component, a file, or none; - reverses it.")
@@ -57,7 +68,10 @@ def replay(
     effect: Annotated[
         list[str] | None, typer.Option(help="Switch an effect on, by name or file, at its typical size.")
     ] = None,
-    law: Annotated[str, typer.Option(help="paper (eqs. 7 and 8) or coulomb: what the effects are added to.")] = "paper",
+    law: Annotated[
+        str | None,
+        typer.Option(help="paper (eqs. 7 and 8), if not given, or coulomb: what the effects are added to."),
+    ] = None,
     engine: Annotated[str, typer.Option(help="compiled, or python to step through with a debugger.")] = "compiled",
     csv: Annotated[bool, typer.Option("--csv", help="Write record.csv instead of record.parquet.")] = False,
     pictures: Annotated[bool, typer.Option(help="Draw the loops and histories.")] = True,
@@ -93,13 +107,13 @@ def replay(
     sw.motion.warn_of_travel(shaking)
     if stroke is not None:
         sw.motion.warn_beyond_stroke(shaking, sw.quantity(stroke, "m", "--stroke"))
-    model = _model(rig, law, effect or [])
+    used = _model(rig, law, effect or []) if model is None else _fitted_model(model, rig, law, effect or [], trust)
     given = {"dt": (step, "--step"), "output_dt": (output_step, "--output-step")}
     settings: dict[str, Any] = {name: sw.quantity(text, "s", option) for name, (text, option) in given.items() if text}
     new, folder = not out.exists(), out_folder(out)
     try:
         with progress("replay") as report:
-            answer = sw.replay(model, shaking, engine=engine, progress=report, **settings)
+            answer = sw.replay(used, shaking, engine=engine, progress=report, **settings)
     except sw.SimulationDiverged as error:
         _write_record(error.replay, folder, csv)
         raise
@@ -110,14 +124,15 @@ def replay(
     began = time.perf_counter()
     files = [_write_record(answer, folder, csv)]
     written = time.perf_counter()
-    files += _draw(answer, model, folder, shaking.title, pictures, recording) if pictures or recording else []
+    files += _draw(answer, used, folder, shaking.title, pictures, recording) if pictures or recording else []
     numbers = answer.summary(shaking) | {"write_s": written - began, "draw_s": time.perf_counter() - written}
     files.append(save_json(numbers, folder / "summary.json"))
     if json:
         print_json(numbers)
     else:
         _tell(numbers, shaking, files)
-        say_next(_next_step(folder, rig, pictures, recording))
+        of = f"{rig or _RIG} is at its rated values" if model is None else f"the model is that of {model}"
+        say_next(_next_step(folder, of, pictures, recording))
 
 
 def _shaped(
@@ -144,21 +159,33 @@ def _shaped(
     return motion if amplitude == 1.0 else sw.motion.scale(motion, amplitude)
 
 
-def _model(rig: str, law: str, effects: list[str]) -> "sw.Model":
-    if law not in ("paper", "coulomb"):
+def _model(rig: str | None, law: str | None, effects: list[str]) -> "sw.Model":
+    if law not in (None, "paper", "coulomb"):
         raise SettingError(f"--law {law!r}: possible are paper and coulomb")
-    model = sw.base_model(rig, None if law == "paper" else ())
+    model = sw.base_model(rig or _RIG, () if law == "coulomb" else None)
     for name in effects:
         model = model.adding(sw.use(name))
     return model
 
 
-def _next_step(folder: Path, rig: str, pictures: bool, recording: bool) -> str:
+def _fitted_model(file: Path, rig: str | None, law: str | None, effects: list[str], trust: bool) -> "sw.Model":
+    """Return the model of a file, with those effects that it does not hold at their typical sizes."""
+    if rig is not None or law is not None:
+        raise SettingError(
+            f"{file} says which rig it is and which law acts: leave --rig and --law out, or change {file.name}"
+        )
+    model = sw.load_model(file, trust=trust or effects)
+    for added in map(sw.use, effects):
+        model = model if added.effect.name in model else model.adding(added)
+    return model
+
+
+def _next_step(folder: Path, of: str, pictures: bool, recording: bool) -> str:
     if recording:
         return f"`slipwise view {quote(str(folder))}` shows the rig in motion"
     if pictures:
         return f"look at the pictures in {folder}"
-    return f"read the record: `slipwise.read_record` in Python, or any program; {rig} is at its rated values"
+    return f"read the record: `slipwise.read_record` in Python, or any program; {of}"
 
 
 def _write_record(answer: "sw.Replay", folder: Path, csv: bool) -> Path:

@@ -42,6 +42,26 @@ def test_slip_and_energy_are_told_along_both_directions(slipwise, tmp_path):
     assert "slip along y, largest" in out and "largest of the vector" in out
 
 
+def test_a_model_that_was_fitted_is_replayed_with_its_own_numbers_and_laws(slipwise, tmp_path):
+    assert slipwise("effects", "--new", "extra", "--out", tmp_path)[0] == 0
+    file = tmp_path / "model.toml"
+    file.write_text(
+        'rig = "bridge2"\n[specimen]\nmass = "9 t"\n[[effect]]\nname = "shear_rate"\n[[effect]]\nfile = "extra.py"\n'
+    )
+    motion = ("replay", "sine:2Hz,0.3g,cycles=9", "--model", file, "--no-pictures", "--no-recording")
+    code, _, err = slipwise(*motion, "--out", tmp_path / "o")
+    assert code == 2 and "extra.py" in err and "--trust" in err and not (tmp_path / "o").exists()
+    for allowed in (["--trust"], ["--effect", tmp_path / "extra.py"]):
+        code, out, err = slipwise(*motion, *allowed, "--out", tmp_path / "o")
+        assert code == 0 and "the model is that of" in out, err
+        record = read_record(tmp_path / "o" / "record.parquet")
+        assert record.provenance["rig"] == "bridge2" and "extra" in record.provenance["model"]
+    assert sum(record[f"pad_{pad}_N"][0] for pad in "ABCD") == pytest.approx(9e3 * 9.81, rel=0.02)
+    for option in (("--rig", "bridge1"), ("--law", "coulomb")):
+        code, _, err = slipwise(*motion, *option, "--out", tmp_path / "o")
+        assert code == 2 and "leave --rig and --law out" in err
+
+
 @pytest.mark.slow
 def test_the_same_input_gives_the_same_bytes_but_for_times_and_ids_of_rerun(slipwise, tmp_path):
     one, two = tmp_path / "one", tmp_path / "two"
