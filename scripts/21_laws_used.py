@@ -26,8 +26,8 @@ from slipwise.effects import catalogue, find_effect
 from slipwise_benchmarks import make_law_campaign
 from slipwise_benchmarks.dirty import build_dirty
 from slipwise_benchmarks.dirty_plan import Plan
-from slipwise_benchmarks.gauges import USUAL, draw_logger, sensor
-from slipwise_benchmarks.law_campaign import build_law_campaign
+from slipwise_benchmarks.gauges import sensor
+from slipwise_benchmarks.law_campaign import build_law_campaign, draw_clean_logger, write_law_campaign
 from slipwise_benchmarks.laws import LAWS
 from slipwise_benchmarks.planted import Plant
 from slipwise_benchmarks.resumed import read_results, run_jobs
@@ -117,8 +117,7 @@ def discover_noisier(out: Path, seed: int) -> dict[str, Any]:
         run: {name: values if name == "time" else with_noise(name, values) for name, values in channels.items()}
         for run, channels in made.made.recorded.items()
     }
-    rig, mass = (truth.said_rig, truth.said_mass) if made.plan.dirty else (truth.rig, None)
-    write_campaign(out / f"l{seed}_noisier", rig, truth.logger, runs, truth.roles, mass)
+    write_law_campaign(out / f"l{seed}_noisier", replace(made, made=replace(made.made, recorded=runs)))
     return seen_states(sw.discover(out / f"l{seed}_noisier").as_json())
 
 
@@ -133,7 +132,7 @@ def look_for_taken_out(out: Path, effect: str) -> dict[str, Any]:
     seed = 57_900 + list(TAKEN_OUT).index(effect)
     plant = Plant(effect, 1.0, seed, False, 3.0, 6.0)
     plan = Plan("one or two", (plant,), (), rich=False, runs=5, short=False, uplift=False)
-    logger = replace(draw_logger(np.random.default_rng([seed, 43]), USUAL), late={})
+    logger = draw_clean_logger(seed)
     made = build_dirty(seed, name=effect, plan=plan, logger=logger)
     write_campaign(out / effect, made.truth.rig, logger, made.recorded, made.truth.roles)
     catalogue().pop(effect)  # every job has a process of its own

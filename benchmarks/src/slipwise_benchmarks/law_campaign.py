@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from slipwise_benchmarks.dirty import DirtyCampaign, build_dirty
-from slipwise_benchmarks.gauges import USUAL, draw_logger
+from slipwise_benchmarks.gauges import USUAL, Logger, draw_logger
 from slipwise_benchmarks.law_plan import LawPlan, draw_law_plan, law_of
 from slipwise_benchmarks.write import write_campaign, write_truth
 
@@ -83,8 +83,13 @@ def _alike(seed: int, other: LawPlan) -> LawPlan:
 
 
 def _built(plan: LawPlan, seed: int, name: str) -> LawCampaign:
-    clean = replace(draw_logger(np.random.default_rng([seed, 43]), USUAL), late={})
-    return LawCampaign(plan, build_dirty(seed, name=name, plan=plan.plan, logger=None if plan.dirty else clean))
+    logger = None if plan.dirty else draw_clean_logger(seed)
+    return LawCampaign(plan, build_dirty(seed, name=name, plan=plan.plan, logger=logger))
+
+
+def draw_clean_logger(seed: int) -> Logger:
+    """Draw the chain of a clean campaign: it tells its filter, and no card is late."""
+    return replace(draw_logger(np.random.default_rng([seed, 43]), USUAL), late={})
 
 
 def _resized(plan: LawPlan, factor: float) -> LawPlan:
@@ -102,8 +107,14 @@ def make_law_campaign(folder: Path, seed: int, *, law: str | None = None, like: 
         like: as there.
     """
     campaign = build_law_campaign(seed, name=folder.name, law=law, like=like)
-    truth, answer = campaign.made.truth, campaign.answer()
-    rig, mass = (truth.said_rig, truth.said_mass) if campaign.plan.dirty else (truth.rig, None)
-    write_campaign(folder, rig, truth.logger, campaign.made.recorded, truth.roles, mass)
+    answer = campaign.answer()
+    write_law_campaign(folder, campaign)
     write_truth(folder / "truth.json", answer)
     return answer
+
+
+def write_law_campaign(folder: Path, campaign: LawCampaign) -> None:
+    """Write campaign.toml and five CSV files: what a laboratory would hand over, without the answer."""
+    truth = campaign.made.truth
+    rig, mass = (truth.said_rig, truth.said_mass) if campaign.plan.dirty else (truth.rig, None)
+    write_campaign(folder, rig, truth.logger, campaign.made.recorded, truth.roles, mass)

@@ -16,7 +16,6 @@ from slipwise.model import Model, base_model, use_of
 from slipwise.relations.force_offset import free_zero
 from slipwise.relations.parameters import (
     DAMPED_STICK,
-    YAW_INERTIA,
     ZERO,
     Free,
     list_base_numbers,
@@ -217,8 +216,7 @@ def _fitted(campaign: Campaign, model: Model, objective: Objective, start: Mappi
         solution = solve(objective, weighed, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
     if _yaw_improves_fit(objective, solution):
         objective = objective.with_yaw()
-        if YAW_INERTIA not in solution.values:  # no effect of the model turns the girder
-            free.append(make_free_inertia(model.specimen, YAW_INERTIA))
+        free = free_numbers(campaign, model, objective)  # the inertia that yaw speaks of too
         start = {**{f.key: f.start for f in free}, **solution.values}
         solution = solve(objective, start, free, most=8, enough=_ENOUGH[-1], rough=_ROUGH)
     return BaseFit(campaign, model, objective, tuple(free), solution)
