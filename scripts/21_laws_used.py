@@ -15,6 +15,7 @@ Every finished law or effect is one line of results.jsonl, and the same command 
 import argparse
 from collections.abc import Sequence
 from dataclasses import replace
+from datetime import date
 from pathlib import Path
 from typing import Any
 
@@ -60,7 +61,7 @@ def use_law(out: Path, seed: int) -> dict[str, Any]:
     """
     first = make_law_campaign(out / f"l{seed}", seed)
     found = sw.discover(out / f"l{seed}")
-    found = found.written(out / f"l{seed}" / "laws", f"law_{seed}", "2026-11-30")
+    found = found.written(out / f"l{seed}" / "laws", f"law_{seed}", date.today().isoformat())
     row = {"name": f"l{seed}", "law": first["name"], "dirty": first["dirty"], "evidence": found.evidence}
     if not found.files:
         return row

@@ -37,7 +37,7 @@ class CurveShape:
         direction: "rises", "falls", "neither" or "flat".
         parity: "even" or "odd" in a state that takes both signs, "neither", or "" where it takes one only.
         saturates: whether it goes over into a constant.
-        threshold: whether it begins flat and goes off from some place on.
+        begins_flat: whether it begins flat and goes off from some place on, as with a threshold, or as a square does.
         periodic: whether it repeats.
         ends: per end of the data: state, value, lower and upper end of its 95 % band [SI].
         extremes: state and value where it is lowest, and where it is highest [SI].
@@ -48,7 +48,7 @@ class CurveShape:
     direction: str
     parity: str
     saturates: bool
-    threshold: bool
+    begins_flat: bool
     periodic: bool
     ends: tuple[tuple[float, float, float, float], tuple[float, float, float, float]]
     extremes: tuple[tuple[float, float], tuple[float, float]]
@@ -64,7 +64,7 @@ class CurveShape:
         )
         more = [word for word, there in (
             (f"{self.parity} in its state", self.parity in ("even", "odd")),
-            ("it levels off", self.saturates), ("it begins at a threshold", self.threshold),
+            ("it levels off", self.saturates), ("it hardly changes at first", self.begins_flat),
             ("it repeats", self.periodic),
         ) if there]  # fmt: skip
         if self.direction == "neither":
@@ -82,7 +82,7 @@ class CurveShape:
             "direction": self.direction,
             "parity": self.parity or None,
             "saturates": self.saturates,
-            "threshold": self.threshold,
+            "begins_flat": self.begins_flat,
             "periodic": self.periodic,
             "ends": [dict(zip(names, end, strict=True)) for end in self.ends],
             "extremes": [dict(zip(names, one, strict=False)) for one in self.extremes],

@@ -73,6 +73,11 @@ class Discovery(Drawn, Tabular):
         return _sentence(self)
 
     @property
+    def explains_something(self) -> bool:
+        """Whether it explains a whole per cent of what the model leaves."""
+        return self.share >= 0.005
+
+    @property
     def shape(self) -> CurveShape | None:
         """What explains most, described without a form; None where nothing does, or over two states."""
         if self.laws:
@@ -209,12 +214,12 @@ def _not_confirmed(found: Discovery) -> str:
     best = found.organised
     if best is None:
         return "no state and form explain half of what the model leaves"
-    share = f"{100 * found.share:.0f} %"
-    if share == "0 %":
+    if not found.explains_something:
         return (
             "no state and form explain half of what the model leaves; with the likeliest state and place, "
             f"{best.label}, each motion asks for another curve than the others"
         )
+    share = f"{100 * found.share:.0f} %"
     if found.share < 0.5:
         return f"no state and form explain half of what the model leaves; most, {share}, goes with {best.label}"
     left = f"what the model leaves in {best.port.relation}"

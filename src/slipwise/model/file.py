@@ -136,7 +136,7 @@ def _as_seen_from(folder: Path, file: Path) -> str:
 def _read(path: Path) -> tomlkit.TOMLDocument:
     if not path.is_file():
         raise InputError(
-            f"{path}: no such file; without --model a fit begins at the paper's law; `slipwise add` writes a model.toml"
+            f"{path}: no such file; `slipwise add` writes a model.toml, as `slipwise diagnose --accept` does"
         )
     try:
         document = tomlkit.parse(read_input(path).decode("utf-8-sig"))

@@ -35,7 +35,8 @@ class FolderState:
         settings: what campaign.toml says, of the runs those whose files are whole.
         whole: file -> its state.
         unfinished: file -> its state, of those that are still being written.
-        notices: what is waited for, and what was taken that campaign.toml does not name, a sentence each.
+        notices: what is waited for, a sentence each.
+        unnamed: files that are taken as runs though campaign.toml does not name them.
         model: state of model.toml, None where there is none.
         campaign: state of campaign.toml.
     """
@@ -44,6 +45,7 @@ class FolderState:
     whole: dict[str, FileState]
     unfinished: dict[str, FileState]
     notices: tuple[str, ...]
+    unnamed: tuple[str, ...]
     campaign: FileState | None
     model: FileState | None
 
@@ -91,13 +93,8 @@ class Observer:
         unnamed = [name for name in further if name in whole]
         self.taken |= set(unnamed)
         runs += [RunSettings(name, "fit", None, None) for name in unnamed]
-        notices += [
-            f"{name} is not in campaign.toml: it is taken as a run of role fit; a [[run]] there gives it another role, "
-            "and moved away it is left out"
-            for name in unnamed
-        ]
         return FolderState(
-            replace(settings, runs=tuple(runs)), whole, unfinished, tuple(notices), campaign,
+            replace(settings, runs=tuple(runs)), whole, unfinished, tuple(notices), tuple(unnamed), campaign,
             state_of(self.folder / "model.toml"),
         )  # fmt: skip
 

@@ -18,6 +18,7 @@ class RunReader:
         folder: of the campaign.
         basis: state of campaign.toml with which the files were read.
         files: `source` of a run -> the state in which a file was read, and what it holds.
+        refused: file of a run that could not be used when it was last read -> why it is left out.
     """
 
     folder: Path
@@ -25,20 +26,20 @@ class RunReader:
     files: dict[Source, tuple[FileState | None, MeasuredFile]] = field(
         default_factory=dict[Source, tuple[FileState | None, MeasuredFile]]
     )
+    refused: dict[str, str] = field(default_factory=dict[str, str])
 
-    def read(self, seen: FolderState) -> tuple[Campaign | None, tuple[str, ...]]:
-        """Read the runs whose files are whole.
+    def read(self, seen: FolderState) -> Campaign | None:
+        """Read the runs whose files are whole; `refused` says why each that cannot be used is left out.
 
         Returns:
-            The campaign of those that can be used together, in their order, None where there is none; and why each of
-            the others is left out.
+            The campaign of those that can be used together, in their order, None where there is none.
 
         Raises:
             SlipwiseError: the rig of campaign.toml cannot be used.
         """
         if self.basis != seen.campaign:
             self.files, self.basis = {}, seen.campaign
-        settings, refused = seen.settings, []
+        settings, self.refused = seen.settings, {}
         specimen = specimen_of(self.folder, settings)
         campaign: Campaign | None = None
         usable = replace(settings, runs=())
@@ -53,5 +54,5 @@ class RunReader:
                 campaign, usable = assemble(self.folder, wider, specimen, read), wider
             except (SlipwiseError, OSError) as error:
                 self.files.pop(run.source, None)
-                refused.append(f"{run.file} is left out: {' '.join(str(error).split())}")
-        return campaign, tuple(refused)
+                self.refused[run.file] = f"{run.file} is left out: {' '.join(str(error).split())}"
+        return campaign

@@ -94,7 +94,7 @@ def watch(
     begun = False
     judged: object = None
     while True:
-        seen, measured, refused, notices = _looked(observer, reader, judged)
+        seen, measured, notices = _looked(observer, reader, judged)
         if notices != told or not begun:  # even nothing is told once: whoever listens knows that it has begun
             told, begun = notices, True
             yield News("waiting", steps, told)
@@ -103,7 +103,7 @@ def watch(
             continue
         judged, began = seen.key, time.monotonic()
         basis = _basis(folder / "campaign.toml", Path(model) if model is not None else folder / "model.toml")
-        step, anew = _next_step(steps, measured, refused, basis)
+        step, anew = _next_step(steps, measured, tuple(reader.refused.values()), basis)
         if not anew:
             if step != steps[-1]:
                 steps = (*steps[:-1], step)
@@ -123,19 +123,25 @@ def watch(
 
 def _looked(
     observer: Observer, reader: RunReader, judged: object
-) -> tuple[FolderState | None, Campaign | None, tuple[str, ...], tuple[str, ...]]:
-    """Return what is there to be judged: the folder, its runs, those left out, and what is waited for.
+) -> tuple[FolderState | None, Campaign | None, tuple[str, ...]]:
+    """Return what is there to be judged: the folder, its runs, and what is waited for or was taken unasked.
 
     No folder where nothing has changed since the last judgement, and where campaign.toml is being edited.
     """
     try:
         seen = observer.look()
-        if seen.key == judged or not seen.whole:
-            return None, None, (), seen.notices
-        measured, refused = reader.read(seen)
+        if not seen.whole:
+            return None, None, seen.notices
+        measured = None if seen.key == judged else reader.read(seen)
     except SlipwiseError as error:
-        return None, None, (), (f"{' '.join(str(error).split())}; it is looked at again",)
-    return seen, measured, refused, seen.notices
+        return None, None, (f"{' '.join(str(error).split())}; it is looked at again",)
+    taken = tuple(
+        f"{name} is not in campaign.toml: it is taken as a run of role fit; a [[run]] there gives it another role, and "
+        "moved away it is left out"
+        for name in seen.unnamed
+        if name not in reader.refused  # that is told for itself
+    )
+    return None if seen.key == judged else seen, measured, (*seen.notices, *taken)
 
 
 @dataclass(frozen=True)

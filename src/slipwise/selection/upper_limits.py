@@ -60,9 +60,10 @@ class UpperLimit:
         return self.size >= 1.0 or not self.measured
 
     def as_json(self) -> dict[str, Any]:
-        """Return the effect's entry of diagnosis.json."""
+        """Return the effect's entry of diagnosis.json; no numbers where the campaign says nothing of it."""
         numbers = {"size": self.size, "value": self.value, **self.responses}
-        written = {k: float(f"{x:.3g}") if np.isfinite(x) else None for k, x in numbers.items()}
+        told = {k: self.measured and np.isfinite(x) for k, x in numbers.items()}
+        written = {k: float(f"{x:.3g}") if told[k] else None for k, x in numbers.items()}
         return {**written, "parameter": self.parameter, "unit": self.unit, "of": self.label, "measured": self.measured}
 
 

@@ -61,7 +61,7 @@ class _Screened(TypedDict):
 
 
 class _Limit(TypedDict):
-    size: float
+    size: float | None
     value: float | None
     parameter: str
     measured: bool

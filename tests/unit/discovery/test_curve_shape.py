@@ -28,14 +28,14 @@ def shape(over: np.ndarray, height: np.ndarray, knots: int = 14) -> CurveShape:
 
 def test_a_curve_that_decays_falls_and_levels_off_from_its_first_value() -> None:
     found = shape(SIZES, np.exp(-SIZES / 0.4))
-    assert found.direction == "falls" and found.saturates and not found.threshold and not found.periodic
+    assert found.direction == "falls" and found.saturates and not found.begins_flat and not found.periodic
     (_, first, low, high), (_, last, *_) = found.ends
     assert low < first < high and first == pytest.approx(1.0, abs=0.1) and last == pytest.approx(0.0, abs=0.1)
 
 
 def test_a_curve_that_begins_at_a_place_has_a_threshold() -> None:
     found = shape(SIZES, np.maximum(SIZES - 1.2, 0.0))
-    assert found.direction == "rises" and found.threshold and not found.saturates
+    assert found.direction == "rises" and found.begins_flat and not found.saturates
 
 
 @pytest.mark.parametrize(

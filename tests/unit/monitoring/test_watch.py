@@ -124,6 +124,16 @@ def test_a_younger_file_is_a_run_that_campaign_toml_need_not_name_and_stays_one(
     assert set(judged[-1]) == {"earlier", "later"}
 
 
+def test_a_younger_file_that_holds_no_samples_is_not_called_a_run(tmp_path, judged):
+    (tmp_path / "campaign.toml").write_text(FIRST)
+    write(tmp_path / "one.csv", 1)
+    write(tmp_path / "more.csv", 2)
+    (tmp_path / "readme.txt").write_text("What was tested, and by whom.\n")
+    news = until(watch(tmp_path, tmp_path / "watch.json"), "next")
+    assert [words.split()[0] for words in news.waiting if "not in campaign.toml" in words] == ["more.csv"]
+    assert [words.split(":")[0] for words in news.steps[-1].refused] == ["readme.txt is left out"]
+
+
 def test_a_run_that_comes_in_breaks_off_what_is_left_to_say(tmp_path, judged, monkeypatch):
     (tmp_path / "campaign.toml").write_text(FIRST)
     write(tmp_path / "one.csv", 1)

@@ -30,6 +30,7 @@ def test_a_limit_is_not_held_down_by_what_imperfections_usually_are() -> None:
     assert limits["heating"].measured and not limits["heating"].may_matter
     assert limits["heating"].size < 0.4
     assert not limits["run_in"].measured and limits["run_in"].may_matter
+    assert limits["run_in"].as_json()["size"] is None and limits["heating"].as_json()["size"] < 1.0
     assert list(limits) == ["run_in", "heating"], "the largest first"
 
 

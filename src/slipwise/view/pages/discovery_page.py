@@ -60,12 +60,12 @@ def _found(found: Discovery) -> list[Section]:
     if found.organised is None:
         return []
     states = " and ".join(state_words(s.name) for s in found.organised.states)
-    share = f"{100.0 * found.share:.0f} %"
     words = (
-        f"Likeliest is {states}, but each motion asks for another curve than the others, so that nothing of what the "
-        "model leaves is explained."
-        if share == "0 %"
-        else f"Most, {share} of what the model leaves above noise, goes with {states}. No form is put over the curve."
+        f"Most, {100.0 * found.share:.0f} % of what the model leaves above noise, goes with {states}. No form is put "
+        "over the curve."
+        if found.explains_something
+        else f"Likeliest is {states}, but each motion asks for another curve than the others, so that nothing of what "
+        "the model leaves is explained."
     )
     caption = "What the model lacks, one point a sample, and a curve of straight pieces through it with its 95 % band."
     drawn = figure(candidate_figure(found.organised), caption)
