@@ -216,6 +216,8 @@ def main() -> None:
     chosen.bearings |= chosen.quick
     count = 1 if chosen.quick else chosen.count
     cases = work(chosen, count)
+    if chosen.quick:
+        cases = dict(list(cases.items())[:1])
     results = run(chosen.out, cases, chosen.workers)
     if len(results) < len(cases):
         print(f"stopped with {len(results)} of {len(cases)} campaigns done; the same command goes on from there")

@@ -1,11 +1,13 @@
 """The verb: diagnose a campaign."""
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from slipwise.campaign import Campaign
+from slipwise.campaign.materiality import Materiality
 from slipwise.diagnosis.findings import collect_findings
 from slipwise.diagnosis.full_length_errors import compute_full_length_errors
 from slipwise.diagnosis.indistinguishable import list_alike_pairs
@@ -26,6 +28,7 @@ from slipwise.jobs.parallel import one_thread_algebra
 from slipwise.jobs.stage_clock import StageClock
 from slipwise.model import Model
 from slipwise.model.file import as_model
+from slipwise.noise.level import is_at_floor
 from slipwise.preparation.prepare import prepare
 from slipwise.preparation.prepared import Prepared
 from slipwise.selection.candidates import NOTHING_SLIDES
@@ -33,6 +36,7 @@ from slipwise.selection.explained_alone import list_least_sizes
 from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, refit_for_report
 from slipwise.selection.hypothesis_fit import make_fit
 from slipwise.selection.importance import compute_importance
+from slipwise.selection.jacobian_memory import complete_jacobian
 from slipwise.selection.search_state import Search
 from slipwise.selection.select import SelectionResult, select_effects
 from slipwise.selection.upper_limits import UpperLimit, compute_upper_limits
@@ -73,10 +77,12 @@ def diagnose(
     selected = select_effects(prepared, start, own, lambda words, share: tell(words, part * share))
     base, state = selected.base, selected.search
     tell("replaying without each effect", part)
-    found = make_fit(base, state.final, with_slopes=not state.final.objective.balanced)
-    sizes = compute_intervals(found).entries if state.final.terms else ()
-    state, evidence = collect_findings(state, compute_importance(found, state.final.terms, sizes), measured.materiality)
-    decided = decide_verdict(state, evidence, measured.materiality)
+    judgement = _judge(base, state, measured.materiality)
+    small = _explained_by_one(state) if judgement.verdict.kind == "complete" else None
+    if small is not None:
+        listed = _judge(base, small, measured.materiality)
+        judgement = listed if listed.verdict.kind == "complete" and listed.verdict.minor else judgement
+    state, found, sizes, decided = judgement.state, judgement.found, judgement.sizes, judgement.verdict
     before = refit_for_report(state.path[0])
     shown = state.final if decided.effects else before
     verdict = with_faults(decided, prepared.gauge_faults, state.best.terms)
@@ -122,6 +128,50 @@ def diagnose(
         stages=stages,
         limits=_limits(state, verdict),
     )
+
+
+@dataclass(frozen=True)
+class _Judgement:
+    """A search that was judged.
+
+    Attributes:
+        state: of the search, with what was refitted to judge it.
+        found: its final model.
+        sizes: intervals of that; empty without effects.
+        verdict: what it says.
+    """
+
+    state: Search
+    found: BaseFit
+    sizes: Sequence[Interval]
+    verdict: Verdict
+
+
+def _judge(base: BaseFit, state: Search, limits: Materiality) -> _Judgement:
+    found = make_fit(base, state.final, with_slopes=not state.final.objective.balanced)
+    sizes = compute_intervals(found).entries if state.final.terms else ()
+    state, evidence = collect_findings(state, compute_importance(found, state.final.terms, sizes), limits)
+    return _Judgement(state, found, sizes, decide_verdict(state, evidence, limits))
+
+
+def _explained_by_one(state: Search) -> Search | None:
+    """Return a search that ends at the one effect which, refitted alone, leaves nothing above the noise.
+
+    None where effects were found, where nothing is above the noise, or where no effect alone brings it there. What is
+    too small to matter is believed to be there if it leaves nothing to explain: it is worth being told.
+    """
+    origin = state.path[0]
+    if state.best.terms or _is_at_floor(origin):
+        return None
+    alone = [h for h in state.tried if len(h.terms) == 1 and _is_at_floor(h)]
+    if not alone:
+        return None
+    best = complete_jacobian(max(alone, key=lambda h: compute_score(origin.summary, h.summary)))
+    return replace(state, path=(origin, best), final_refit=complete_jacobian(refit_for_report(best)))
+
+
+def _is_at_floor(found: Hypothesis) -> bool:
+    return all(is_at_floor(get_error(found.summary, relation)) for relation in found.summary.fitted)
 
 
 def _untested(state: Search) -> list[tuple[str, str]]:

@@ -53,6 +53,7 @@ class Posterior:
         strengths: (n, K) size of every column [limits].
         level: (r,) what is left of every relation [noise variance].
         gain: (K,) what each column would explain beside the mean of all others [nats].
+        alone: (K,) what it would explain if nothing else were more than a trifle [nats].
     """
 
     labels: tuple[str, ...]
@@ -63,6 +64,7 @@ class Posterior:
     strengths: Array
     level: Array
     gain: Array
+    alone: Array
 
 
 @dataclass(frozen=True)
@@ -133,8 +135,8 @@ def compute_posterior(
         level = np.maximum(left / counts, prior.floor)
     own = np.maximum(np.diag(precision), 1e-12)
     mean = sizes.mean(axis=0)
-    gain = 0.5 * (pulled - precision @ mean + own * mean) ** 2 / own
-    return _as_posterior(statistics, places.forms, taken, sizes, level, gain)
+    gain, alone = (0.5 * pull**2 / own for pull in (pulled - precision @ mean + own * mean, pulled))
+    return _as_posterior(statistics, places.forms, taken, sizes, level, gain, alone)
 
 
 @dataclass(frozen=True)
@@ -261,7 +263,7 @@ def _draw(
 
 
 def _as_posterior(
-    statistics: Statistics, forms: ColumnGroups, taken: Ints, sizes: Array, level: Array, gain: Array
+    statistics: Statistics, forms: ColumnGroups, taken: Ints, sizes: Array, level: Array, gain: Array, alone: Array
 ) -> Posterior:
     shape = len(taken), len(forms.labels)
     size, seen = np.zeros(shape), np.zeros(shape)
@@ -276,4 +278,4 @@ def _as_posterior(
         squares = np.einsum("si,kij,sj->sk", b, rest[:, members][:, :, members], b)
         seen[at, t] = np.sqrt(np.maximum(squares.max(axis=1), 0.0))
         chosen[at, t] = forms.number[f]
-    return Posterior(forms.labels, forms.effects, size, seen, chosen, sizes, level, gain)
+    return Posterior(forms.labels, forms.effects, size, seen, chosen, sizes, level, gain, alone)

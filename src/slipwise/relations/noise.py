@@ -256,7 +256,8 @@ def compute_heave_noise(model: Model, run: FitRun) -> float:
 def compute_bent_noise_in_heave(model: Model, run: FitRun) -> Array:
     """Return what the accelerometer's noise adds to the predicted load where effects ring with it.
 
-    A girder that bends multiplies the noise at its own frequency by up to 1/(2 z).
+    A girder that bends multiplies the noise at its own frequency by up to 1/(2 z), and passes on below it what it hides
+    above: `compute_heave_level` counts what it passes on as a mean.
 
     Returns:
         spectrum (m,) as `compute_force_noise_in_pitch` gives it, nowhere below zero [N^2].
@@ -268,7 +269,8 @@ def compute_bent_noise_in_heave(model: Model, run: FitRun) -> Array:
         return np.zeros(len(impulse) // 2 + 1)
     mass = model.specimen.carried_mass
     passed = np.abs(np.fft.rfft(mass * impulse + more)) ** 2
-    return run.noise.get("girder_az", 0.0) ** 2 * np.maximum(passed - mass**2, 0.0)
+    counted = (min(1.0, compute_heave_noise(model, run)) * mass) ** 2
+    return run.noise.get("girder_az", 0.0) ** 2 * np.maximum(passed - counted, 0.0)
 
 
 def _more_heave(model: Model, run: FitRun, upward: Array) -> Array | None:

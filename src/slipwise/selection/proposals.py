@@ -177,7 +177,9 @@ def _closer_forms(
 ) -> list[CandidateForm]:
     """Return forms about the best one of every law that acts at a place or a frequency, and of every lag of a gauge.
 
-    From afar a place or a frequency is hardly seen, and a lag is no straight line.
+    From afar a place or a frequency is hardly seen, and a lag is no straight line. The best one is looked for beside
+    what is believed and alone: a part of the girder that swings below the frequencies of a quake is first taken for a
+    gain of its accelerometer, and beside that no frequency near its own explains anything.
 
     Args:
         here: a linearisation.
@@ -190,26 +192,30 @@ def _closer_forms(
         members = [i for i, c in enumerate(here.columns) if c.label == label and c.form != OF_MODEL and c.strength]
         if not members or not (is_placed(term.effect) or is_lag(term.effect)):
             continue
-        top = max(members, key=lambda i: posterior.gain[i])
-        if posterior.gain[top] < _WORTH_A_LOOK:
-            continue
-        best = here.columns[top]
+        most = {max(members, key=lambda i: gain[i]): gain for gain in (posterior.alone, posterior.gain)}
+        tops = [i for i, gain in most.items() if gain[i] >= _WORTH_A_LOOK]
         number = max(here.columns[i].form for i in members)
-        constants = {p.name: p for p in term.effect.parameters if p.neutral is None}
-        centre = {name: best.values[name] for name in constants}
-        if is_lag(term.effect):
-            size = _size_of(term, best)
-            sizes = FULL_SIZES if abs(size) < 1.0 else (size / finer[1], size * finer[1])
-            out += [CandidateForm(term, number + k, centre, x) for k, x in enumerate(sizes, 1)]
+        for best in (here.columns[top] for top in tops):
+            closer = _closer_to(term, best, finer)
+            out += [CandidateForm(term, number + k, values, size) for k, (values, size) in enumerate(closer, 1)]
+            number += len(closer)
+    return out
+
+
+def _closer_to(term: Term, best: CandidateColumn, finer: tuple[float, float]) -> list[tuple[dict[str, float], float]]:
+    """Return constants and size [typical strength] of forms about one; arguments as of `_closer_forms`."""
+    constants = {p.name: p for p in term.effect.parameters if p.neutral is None}
+    centre = {name: best.values[name] for name in constants}
+    if is_lag(term.effect):
+        size = _size_of(term, best)
+        return [(centre, x) for x in (FULL_SIZES if abs(size) < 1.0 else (size / finer[1], size * finer[1]))]
+    out: list[tuple[dict[str, float], float]] = []
+    for name, p in constants.items():
+        if p.whole or name in REFERENCES:
             continue
-        for name, p in constants.items():
-            if p.whole or name in REFERENCES:
-                continue
-            factor = finer[0] if p.unit == "Hz" or p.low < 0.0 < p.high else finer[1]
-            for value in (float(np.clip(centre[name] * step, p.low, p.high)) for step in (1.0 / factor, factor)):
-                if value != centre[name]:
-                    number += 1
-                    out.append(CandidateForm(term, number, {**centre, name: value}))
+        factor = finer[0] if p.unit == "Hz" or p.low < 0.0 < p.high else finer[1]
+        moved = (float(np.clip(centre[name] * step, p.low, p.high)) for step in (1.0 / factor, factor))
+        out += [({**centre, name: value}, 0.0) for value in moved if value != centre[name]]
     return out
 
 
