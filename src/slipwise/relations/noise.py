@@ -236,41 +236,50 @@ def compute_heave_level(model: Model, run: FitRun, scale: Mapping[str, float]) -
     """
     loads = float(np.linalg.norm(run.gauge_noise[1])) * scale.get("loads", 1.0)
     vertical = model.specimen.carried_mass * run.noise.get("girder_az", 0.0) * scale.get("girder_az", 1.0)
-    return float(np.hypot(loads, min(1.0, compute_heave_noise(model, run)) * vertical)) / scale.get("heave", 1.0)
+    return float(np.hypot(loads, compute_heave_noise(model, run) * vertical)) / scale.get("heave", 1.0)
 
 
 def compute_heave_noise(model: Model, run: FitRun) -> float:
-    """Tell by which factor effects change the accelerometer's noise in the heave balance.
+    """Tell by which factor, at most 1, effects change the accelerometer's noise in the heave balance, where none rings.
 
     A girder that bends hides part of a_z at high frequency, noise included: without this factor every such effect
     would seem to explain something.
     """
-    uses = model.with_hook("balance")
-    if not uses or not np.isfinite(run.states.girder_acceleration[:, 2]).all():
-        return 1.0
-    shaken = np.random.default_rng(0).normal(size=len(run.time))
-    more = _more_heave(model, run, shaken)
-    return 1.0 if more is None else float(np.std(shaken + more / model.specimen.carried_mass) / np.std(shaken))
+    passed = _compute_passed_noise(model, run)
+    return 1.0 if passed is None else float(np.sqrt(np.mean(np.minimum(passed, 1.0))))
 
 
 def compute_bent_noise_in_heave(model: Model, run: FitRun) -> Array:
-    """Return what the accelerometer's noise adds to the predicted load where effects ring with it.
+    """Return what the accelerometer's noise adds to the predicted load beside what `compute_heave_level` counts.
 
     A girder that bends multiplies the noise at its own frequency by up to 1/(2 z), and passes on below it what it hides
-    above: `compute_heave_level` counts what it passes on as a mean.
+    above.
 
     Returns:
-        spectrum (m,) as `compute_force_noise_in_pitch` gives it, nowhere below zero [N^2].
+        spectrum (m,) as `compute_force_noise_in_pitch` gives it, nowhere below zero, over the level that is left where
+        a part is hidden, in units of the level of the gauges [N^2].
     """
+    passed = _compute_passed_noise(model, run)
+    if passed is None:
+        return np.zeros(len(run.time) // 2 + 1)
+    loads = float(np.sum(run.gauge_noise[1] ** 2))
+    vertical = (model.specimen.carried_mass * run.noise.get("girder_az", 0.0)) ** 2
+    counted = float(np.mean(np.minimum(passed, 1.0)))
+    in_level = (loads + vertical) / max(loads + counted * vertical, 1e-24)
+    return vertical * np.maximum(passed - counted, 0.0) * in_level
+
+
+def _compute_passed_noise(model: Model, run: FitRun) -> Array | None:
+    """Return the share of the accelerometer's noise power that effects pass on to heave (m,); None where all of it is.
+
+    The frequencies are those of a real transform.
+    """
+    if not model.with_hook("balance") or not np.isfinite(run.states.girder_acceleration[:, 2]).all():
+        return None
     impulse = np.zeros(len(run.time))
     impulse[len(impulse) // 2] = 1.0
     more = _more_heave(model, run, impulse)
-    if more is None:
-        return np.zeros(len(impulse) // 2 + 1)
-    mass = model.specimen.carried_mass
-    passed = np.abs(np.fft.rfft(mass * impulse + more)) ** 2
-    counted = (min(1.0, compute_heave_noise(model, run)) * mass) ** 2
-    return run.noise.get("girder_az", 0.0) ** 2 * np.maximum(passed - counted, 0.0)
+    return None if more is None else np.abs(np.fft.rfft(impulse + more / model.specimen.carried_mass)) ** 2
 
 
 def _more_heave(model: Model, run: FitRun, upward: Array) -> Array | None:

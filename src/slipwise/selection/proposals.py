@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -177,9 +178,9 @@ def _closer_forms(
 ) -> list[CandidateForm]:
     """Return forms about the best one of every law that acts at a place or a frequency, and of every lag of a gauge.
 
-    From afar a place or a frequency is hardly seen, and a lag is no straight line. The best one is looked for beside
-    what is believed and alone: a part of the girder that swings below the frequencies of a quake is first taken for a
-    gain of its accelerometer, and beside that no frequency near its own explains anything.
+    From afar a place or a frequency is hardly seen, and a lag is no straight line. A place or a frequency is looked for
+    beside what is believed and alone: a part of the girder that swings below the frequencies of a quake is first taken
+    for a gain of its accelerometer, and beside that no frequency near its own explains anything.
 
     Args:
         here: a linearisation.
@@ -192,14 +193,24 @@ def _closer_forms(
         members = [i for i, c in enumerate(here.columns) if c.label == label and c.form != OF_MODEL and c.strength]
         if not members or not (is_placed(term.effect) or is_lag(term.effect)):
             continue
-        most = {max(members, key=lambda i: gain[i]): gain for gain in (posterior.alone, posterior.gain)}
-        tops = [i for i, gain in most.items() if gain[i] >= _WORTH_A_LOOK]
+        tops = dict.fromkeys([max(members, key=lambda i: posterior.gain[i])])
+        if is_placed(term.effect):
+            tops |= dict.fromkeys(_best_alone(here, term, members, posterior))
         number = max(here.columns[i].form for i in members)
-        for best in (here.columns[top] for top in tops):
+        for best in (here.columns[i] for i in tops if max(posterior.gain[i], posterior.alone[i]) >= _WORTH_A_LOOK):
             closer = _closer_to(term, best, finer)
             out += [CandidateForm(term, number + k, values, size) for k, (values, size) in enumerate(closer, 1)]
             number += len(closer)
     return out
+
+
+def _best_alone(here: Linearisation, term: Term, members: Sequence[int], posterior: Posterior) -> list[int]:
+    """Return the places of the columns that explain most alone, one for each set of constants that no fit changes."""
+    whole = [p.name for p in term.effect.parameters if p.whole]
+    best: dict[tuple[float, ...], int] = {}
+    for i in sorted(members, key=lambda i: posterior.alone[i]):
+        best[tuple(here.columns[i].values[name] for name in whole)] = i
+    return list(best.values())
 
 
 def _closer_to(term: Term, best: CandidateColumn, finer: tuple[float, float]) -> list[tuple[dict[str, float], float]]:
@@ -209,13 +220,18 @@ def _closer_to(term: Term, best: CandidateColumn, finer: tuple[float, float]) ->
     if is_lag(term.effect):
         size = _size_of(term, best)
         return [(centre, x) for x in (FULL_SIZES if abs(size) < 1.0 else (size / finer[1], size * finer[1]))]
+    free = [p for p in constants.values() if not p.whole and p.name not in REFERENCES]
+    places = {p.name for p in free if p.unit == "Hz" or p.low < 0.0 < p.high}
+    steps = {p: (1.0 / f, f) for p in free for f in [finer[0] if p.name in places else finer[1]]}
+    moved = [[(p, step)] for p in free for step in steps[p]]
+    # a resonance is as wide as it is damped: where it is, is found only with how wide it is
+    pairs = [(p, q) for p, q in combinations(free, 2) if len(places & {p.name, q.name}) == 1]
+    moved += [[(p, one), (q, other)] for p, q in pairs for one in steps[p] for other in steps[q]]
     out: list[tuple[dict[str, float], float]] = []
-    for name, p in constants.items():
-        if p.whole or name in REFERENCES:
-            continue
-        factor = finer[0] if p.unit == "Hz" or p.low < 0.0 < p.high else finer[1]
-        moved = (float(np.clip(centre[name] * step, p.low, p.high)) for step in (1.0 / factor, factor))
-        out += [({**centre, name: value}, 0.0) for value in moved if value != centre[name]]
+    for together in moved:
+        values = centre | {p.name: float(np.clip(centre[p.name] * x, p.low, p.high)) for p, x in together}
+        if all(values[p.name] != centre[p.name] for p, _ in together):
+            out.append((values, 0.0))
     return out
 
 

@@ -132,6 +132,7 @@ def _judge(base: BaseFit, proposed: _Proposed, tell: Callable[[str, float], None
         state = replace(state, tried=(found,))
         state, found = _with_whole_numbers(state, found)
         state, found = _without_needless_lags(state, found)
+        state, found = _without_needless_faults(state, found)
         state, found = plainest(state, found)
         state = _with_rivals(state, proposal, candidates, found)
         tell("weighing", 0.95)
@@ -181,6 +182,21 @@ def _without_needless_lags(state: Search, found: Hypothesis) -> tuple[Search, Hy
             state, other = try_one(state, found.without(term), {}, found)
             if _compute_loss(other, found) < -np.log(Prior.chance):
                 return _without_needless_lags(state, other)
+    return state, found
+
+
+def _without_needless_faults(state: Search, found: Hypothesis) -> tuple[Search, Hypothesis]:
+    """Return a model without those faults of gauges whose absence costs less than they do, each refitted without.
+
+    By straight lines a fault may explain what it does not once it is fitted: that all cells read too little is one with
+    more mass, and its column is then the noise of the balance.
+    """
+    for name in dict.fromkeys(t.effect.name for t in found.terms if t.effect.port == "gauge"):
+        rest = [t for t in found.terms if t.effect.name != name]
+        if rest:
+            state, other = try_one(state, rest, {}, found)
+            if _compute_loss(other, found) < -np.log(Prior.chance):
+                return _without_needless_faults(state, other)
     return state, found
 
 

@@ -9,6 +9,7 @@ from slipwise.model import base_model, use
 from slipwise.relations.girder import compute_heave_rate
 from slipwise.relations.noise import (
     compute_bent_noise_in_heave,
+    compute_heave_level,
     compute_vertical_friction_noise,
     whiten_residual,
     with_masked_noise,
@@ -42,7 +43,8 @@ def test_a_residual_that_changes_sign_does_not_jump() -> None:
 def test_a_girder_that_bends_rings_with_the_noise_of_its_accelerometer(run: FitRun) -> None:
     model = base_model("bridge1").adding(use("girder_bending", share=0.4, frequency=13.0, damping=0.01))
     mass, level = model.specimen.mass, run.noise["girder_az"]
-    more, own = compute_bent_noise_in_heave(model, run), float(np.hypot(80.0, mass * level))
+    more, loads = compute_bent_noise_in_heave(model, run), float(np.linalg.norm(run.gauge_noise[1]))
+    own, hidden = float(np.hypot(loads, mass * level)), compute_heave_level(model, run, {})
     rng, frequency = np.random.default_rng(4), np.fft.rfftfreq(len(run.time), run.dt)
     near = np.abs(frequency - 13.0) < 1.0
 
@@ -54,11 +56,31 @@ def test_a_girder_that_bends_rings_with_the_noise_of_its_accelerometer(run: FitR
         shaken = rng.normal(0.0, level, len(run.time))
         # q'' of q'' + 2 z w q' + w^2 q = -a
         carried = mass * shaken + 0.4 * mass * oscillator(-shaken, run.dt, 13.0, 0.01, 2)
-        left = carried + rng.normal(0.0, 80.0, len(shaken))
+        left = carried + rng.normal(0.0, loads, len(shaken))
         before.append(power(left))
         after.append(power(whiten_residual(left, run, own, more)))
     assert np.mean(before) > 5.0 * own**2
-    assert np.mean(after) == pytest.approx(own**2, rel=0.2)
+    assert np.mean(after) == pytest.approx(hidden**2, rel=0.2)
+
+
+def test_the_noise_of_a_bending_girder_is_as_white_below_its_frequency_as_above(run: FitRun) -> None:
+    share, frequency, damping = 0.5, 8.0, 0.026
+    model = base_model("bridge1").adding(use("girder_bending", share=share, frequency=frequency, damping=damping))
+    mass, level = model.specimen.mass, run.noise["girder_az"]
+    hidden, more = compute_heave_level(model, run, {}), compute_bent_noise_in_heave(model, run)
+    own = float(np.hypot(np.linalg.norm(run.gauge_noise[1]), mass * level))
+    rng, at = np.random.default_rng(5), np.fft.rfftfreq(len(run.time), run.dt)
+    bands = {"below": (at > 1.0) & (at < 6.0), "above": (at > 12.0) & (at < 100.0)}
+    power = dict.fromkeys(bands, 0.0)
+    for _ in range(20):
+        shaken = rng.normal(0.0, level, len(run.time))
+        carried = mass * (shaken + share * oscillator(-shaken, run.dt, frequency, damping, 2))
+        left = carried + np.linalg.norm(run.gauge_noise[1]) * rng.standard_normal(len(shaken))
+        spectrum = np.abs(np.fft.rfft(whiten_residual(left, run, own, more))) ** 2 / len(left)
+        power = {name: power[name] + float(np.mean(spectrum[band])) / 20.0 for name, band in bands.items()}
+    assert power["below"] == pytest.approx(hidden**2, rel=0.15)
+    assert power["above"] == pytest.approx(hidden**2, rel=0.15)
+    assert hidden < 0.8 * own
 
 
 def test_what_rubs_against_heave_passes_on_the_noise_of_the_loads(run: FitRun) -> None:
