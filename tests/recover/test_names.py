@@ -48,6 +48,24 @@ def test_a_small_lag_is_called_a_filter_only_where_something_was_taken(tmp_path:
     assert found.verdict.effects == (effect,), found.sentence
 
 
+@pytest.mark.long
+@pytest.mark.parametrize(("seed", "size"), [(930122, "large"), (931005, "medium")])
+def test_a_girder_that_bends_is_named_and_no_gauge_beside_it(tmp_path: Path, seed: int, size: str) -> None:
+    """Half a girder that swings at 9 Hz was called a gain, a filter and a delay; that all cells read 9 % too little."""
+    make_campaign(tmp_path / "made", seed, effects=("girder_bending",), size=size)
+    found = diagnose(tmp_path / "made")
+    assert found.verdict.effects == ("girder_bending",), found.sentence
+    assert found.final_error < 1.15
+
+
+@pytest.mark.long
+def test_what_explains_everything_alone_is_told_though_it_does_not_matter(tmp_path: Path) -> None:
+    make_campaign(tmp_path / "made", 930106, effects=("direction_asymmetry",))
+    found = diagnose(tmp_path / "made")
+    assert (found.verdict.kind, found.verdict.minor) == ("complete", ("direction_asymmetry",)), found.sentence
+    assert found.base_error > 1.5 and "present, but not material" in found.sentence
+
+
 def test_the_ladder_falls_on_runs_that_the_fit_has_not_seen(tmp_path: Path) -> None:
     make_campaign(tmp_path / "made", 7005, effects=("run_in",), size="medium")
     found = ladder(tmp_path / "made", add=("run_in",))
