@@ -54,6 +54,7 @@ def test_add_and_remove_edit_the_model_and_print_the_error_before_and_after(slip
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_a_file_of_ones_own_is_added_fitted_and_written_to_the_model(slipwise, tmp_path):
     campaign, own = tmp_path / "campaign", tmp_path / "my_run_in.py"
     shutil.copytree(Path(str(files("slipwise"))) / "demo_data", campaign)

@@ -126,6 +126,7 @@ def test_the_audit_names_each_fault_once_and_correcting_it_leaves_none(slipwise,
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_loads_that_count_compression_negative_are_mended_and_told_as_those_whose_sign_is_stated(slipwise, folder):
     here = folder("19_all_loads_compression_negative")
     plain = ("compare", ".", "--no-recording", "--no-system", "--out", here.parent / "out", "--json")
@@ -145,6 +146,7 @@ def test_loads_that_count_compression_negative_are_mended_and_told_as_those_whos
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_a_pendulum_bearing_under_a_load_that_stays_is_a_curved_face(slipwise, folder):
     """A sphere of 2.2 m under 900 kN was called a restrainer of 410 kN/m without a gap."""
     here = folder("31_pendulum_bearing_at_constant_load")

@@ -34,6 +34,7 @@ def steps_when(folder: Path, true, process: subprocess.Popen) -> list[dict]:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_a_killed_watch_goes_on_and_one_that_is_interrupted_leaves_a_page_that_says_so(tmp_path):
     (tmp_path / "campaign.toml").write_text('name = "slider"\nrig = "pad"\n[[run]]\nfile = "one.csv"\nrole = "fit"\n')
     (tmp_path / "one.csv").write_text(text(slider(1, 600), HEADER))
