@@ -132,7 +132,7 @@ def _judge(base: BaseFit, proposed: _Proposed, tell: Callable[[str, float], None
         state = replace(state, tried=(found,))
         state, found = _with_whole_numbers(state, found)
         state, found = _without_needless_lags(state, found)
-        state, found = _without_needless_faults(state, found)
+        state, found = _without_needless(state, found)
         state, found = plainest(state, found)
         state = _with_rivals(state, proposal, candidates, found)
         tell("weighing", 0.95)
@@ -185,18 +185,19 @@ def _without_needless_lags(state: Search, found: Hypothesis) -> tuple[Search, Hy
     return state, found
 
 
-def _without_needless_faults(state: Search, found: Hypothesis) -> tuple[Search, Hypothesis]:
-    """Return a model without those faults of gauges whose absence costs less than they do, each refitted without.
+def _without_needless(state: Search, found: Hypothesis) -> tuple[Search, Hypothesis]:
+    """Return a model without those of its effects whose absence costs less than they do, each refitted without.
 
-    By straight lines a fault may explain what it does not once it is fitted: that all cells read too little is one with
-    more mass, and its column is then the noise of the balance.
+    By straight lines an effect may explain what it does not once all is fitted: that all cells read too little is
+    one with more mass, and beside a filter of the wrong order something else makes up for the order.
     """
-    for name in dict.fromkeys(t.effect.name for t in found.terms if t.effect.port == "gauge"):
-        rest = [t for t in found.terms if t.effect.name != name]
-        if rest:
-            state, other = try_one(state, rest, {}, found)
-            if _compute_loss(other, found) < -np.log(Prior.chance):
-                return _without_needless_faults(state, other)
+    if len(found.names) < 2:
+        return state, found
+    asked = [([t for t in found.terms if t.effect.name != name], {}) for name in found.names]
+    state, without = try_all(state, asked, found)
+    least = min(without, key=lambda h: _compute_loss(h, found))
+    if _compute_loss(least, found) < -np.log(Prior.chance):
+        return _without_needless(state, least)
     return state, found
 
 
