@@ -46,6 +46,11 @@ def is_placed(effect: Effect) -> bool:
     return any(p.unit == "Hz" or p.low < 0.0 < p.high for p in constants)
 
 
+def is_resonance(effect: Effect) -> bool:
+    """Return whether a law acts at a frequency."""
+    return any(p.unit == "Hz" and p.neutral is None for p in effect.parameters)
+
+
 def shapes(effect: Effect) -> list[dict[str, float]]:
     """Return a small grid over the constants that switch nothing: typical, and some multiples of it.
 
@@ -79,7 +84,7 @@ def shapes(effect: Effect) -> list[dict[str, float]]:
     whole = [dict(zip([a[0] for a in axes], c, strict=True)) for c in product(*(a[1] for a in axes))]
     if len(whole) <= _MOST_POINTS:
         return whole
-    broad = _BROAD if any(p.unit == "Hz" and p.neutral is None for p in effect.parameters) else 1.0
+    broad = _BROAD if is_resonance(effect) else 1.0
     highest = {p.name: p.high for p in effect.parameters}
     centre = {a[0]: min(broad * a[2], highest[a[0]]) if a[2] > 0.0 else a[2] for a in axes}
     return [centre, *({**centre, name: x} for name, points, middle in axes for x in points if x != middle)]

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +11,7 @@ from slipwise.campaign.materiality import Materiality
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import solve, with_slopes
 from slipwise.evidence.posterior import QUICK, Posterior, compute_posterior
-from slipwise.evidence.prior import OF_MODEL
+from slipwise.evidence.prior import OF_MODEL, Prior
 from slipwise.evidence.statistics import scale_columns
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows, make_averaged_rows
@@ -20,7 +19,7 @@ from slipwise.selection.candidates import at_odds, list_exclusions
 from slipwise.selection.columns import FULL_SIZES, CandidateColumn, CandidateForm, compute_raw_columns, list_forms
 from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, refit
 from slipwise.selection.hypothesis_fit import make_fit
-from slipwise.selection.initial_grid import REFERENCES, is_lag, is_placed, strengths
+from slipwise.selection.initial_grid import REFERENCES, is_lag, is_placed, is_resonance, strengths
 from slipwise.selection.linearisation import Linearisation, linearise
 from slipwise.selection.sensitivities import typical
 from slipwise.selection.units import Moved, compute_moved_by_sizes, compute_units, compute_units_of_fits
@@ -178,9 +177,9 @@ def _closer_forms(
 ) -> list[CandidateForm]:
     """Return forms about the best one of every law that acts at a place or a frequency, and of every lag of a gauge.
 
-    From afar a place or a frequency is hardly seen, and a lag is no straight line. A place or a frequency is looked for
-    beside what is believed and alone: a part of the girder that swings below the frequencies of a quake is first taken
-    for a gain of its accelerometer, and beside that no frequency near its own explains anything.
+    From afar a place or a frequency is hardly seen, and a lag is no straight line. A resonance is looked for beside
+    what is believed and alone: a part of the girder that swings below the frequencies of a quake is first taken for a
+    gain of its accelerometer, and beside that no frequency near its own explains anything.
 
     Args:
         here: a linearisation.
@@ -193,44 +192,59 @@ def _closer_forms(
         members = [i for i, c in enumerate(here.columns) if c.label == label and c.form != OF_MODEL and c.strength]
         if not members or not (is_placed(term.effect) or is_lag(term.effect)):
             continue
-        tops = dict.fromkeys([max(members, key=lambda i: posterior.gain[i])])
-        if is_placed(term.effect):
-            tops |= dict.fromkeys(_best_alone(here, term, members, posterior))
         number = max(here.columns[i].form for i in members)
-        for best in (here.columns[i] for i in tops if max(posterior.gain[i], posterior.alone[i]) >= _WORTH_A_LOOK):
-            closer = _closer_to(term, best, finer)
-            out += [CandidateForm(term, number + k, values, size) for k, (values, size) in enumerate(closer, 1)]
-            number += len(closer)
+        top = max(members, key=lambda i: posterior.gain[i])
+        closer = _closer_to(term, here.columns[top], finer) if posterior.gain[top] >= _WORTH_A_LOOK else []
+        if is_resonance(term.effect):
+            for top in _best_alone(here, term, members, posterior):
+                closer += _closer_to(term, here.columns[top], finer, jointly=True)
+        out += [CandidateForm(term, number + k, values, size) for k, (values, size) in enumerate(closer, 1)]
     return out
 
 
 def _best_alone(here: Linearisation, term: Term, members: Sequence[int], posterior: Posterior) -> list[int]:
-    """Return the places of the columns that explain most alone, one for each set of constants that no fit changes."""
+    """Return the places of the columns that explain most alone, one for each set of constants that no fit changes.
+
+    What explains less than an effect costs is none of them.
+    """
     whole = [p.name for p in term.effect.parameters if p.whole]
     best: dict[tuple[float, ...], int] = {}
     for i in sorted(members, key=lambda i: posterior.alone[i]):
         best[tuple(here.columns[i].values[name] for name in whole)] = i
-    return list(best.values())
+    return [i for i in best.values() if posterior.alone[i] >= -np.log(Prior.chance)]
 
 
-def _closer_to(term: Term, best: CandidateColumn, finer: tuple[float, float]) -> list[tuple[dict[str, float], float]]:
-    """Return constants and size [typical strength] of forms about one; arguments as of `_closer_forms`."""
+def _closer_to(
+    term: Term, best: CandidateColumn, finer: tuple[float, float], *, jointly: bool = False
+) -> list[tuple[dict[str, float], float]]:
+    """Return constants and size [typical strength] of forms about one.
+
+    Args:
+        term: the candidate.
+        best: the form.
+        finer: as of `_closer_forms`.
+        jointly: move frequency and damping together too: where a resonance is, is found only with how wide it is.
+    """
     constants = {p.name: p for p in term.effect.parameters if p.neutral is None}
     centre = {name: best.values[name] for name in constants}
     if is_lag(term.effect):
         size = _size_of(term, best)
         return [(centre, x) for x in (FULL_SIZES if abs(size) < 1.0 else (size / finer[1], size * finer[1]))]
     free = [p for p in constants.values() if not p.whole and p.name not in REFERENCES]
-    places = {p.name for p in free if p.unit == "Hz" or p.low < 0.0 < p.high}
-    steps = {p: (1.0 / f, f) for p in free for f in [finer[0] if p.name in places else finer[1]]}
-    moved = [[(p, step)] for p in free for step in steps[p]]
-    # a resonance is as wide as it is damped: where it is, is found only with how wide it is
-    pairs = [(p, q) for p, q in combinations(free, 2) if len(places & {p.name, q.name}) == 1]
-    moved += [[(p, one), (q, other)] for p, q in pairs for one in steps[p] for other in steps[q]]
+    steps = {p.name: finer[0] if p.unit == "Hz" or p.low < 0.0 < p.high else finer[1] for p in free}
+    moved = [{p: x} for p in free for x in (1.0 / steps[p.name], steps[p.name])]
+    if jointly:
+        pairs = [(p, q) for p in free for q in free if p.unit == "Hz" and q.name == "damping"]
+        moved += [
+            {p: x, q: y}
+            for p, q in pairs
+            for x in (1.0 / steps[p.name], steps[p.name])
+            for y in (1.0 / steps[q.name], steps[q.name])
+        ]
     out: list[tuple[dict[str, float], float]] = []
     for together in moved:
-        values = centre | {p.name: float(np.clip(centre[p.name] * x, p.low, p.high)) for p, x in together}
-        if all(values[p.name] != centre[p.name] for p, _ in together):
+        values = centre | {p.name: float(np.clip(centre[p.name] * x, p.low, p.high)) for p, x in together.items()}
+        if all(values[p.name] != centre[p.name] for p in together):
             out.append((values, 0.0))
     return out
 
