@@ -78,6 +78,11 @@ class Prior:
     floor: float = 0.3
     places: int = 12
 
+    @property
+    def cost_of_effect(self) -> float:
+        """By how much an effect must be likelier than its absence to matter [nats]."""
+        return float(-np.log(self.chance))
+
     def get_trifle(self, *, gauge: bool) -> float:
         """Return the standard deviation of what is always there [limits]."""
         return self.trifle_of_gauges if gauge else self.trifle

@@ -194,10 +194,10 @@ def _closer_forms(
             continue
         number = max(here.columns[i].form for i in members)
         top = max(members, key=lambda i: posterior.gain[i])
-        closer = _closer_to(term, here.columns[top], finer) if posterior.gain[top] >= _WORTH_A_LOOK else []
-        if is_resonance(term.effect):
-            for top in _best_alone(here, term, members, posterior):
-                closer += _closer_to(term, here.columns[top], finer, jointly=True)
+        alone = _best_alone(here, term, members, posterior) if is_resonance(term.effect) else []
+        beside = [top] if posterior.gain[top] >= _WORTH_A_LOOK and top not in alone else []
+        closer = [x for i in beside for x in _closer_to(term, here.columns[i], finer)]
+        closer += [x for i in alone for x in _closer_to(term, here.columns[i], finer, jointly=True)]
         out += [CandidateForm(term, number + k, values, size) for k, (values, size) in enumerate(closer, 1)]
     return out
 
@@ -211,7 +211,7 @@ def _best_alone(here: Linearisation, term: Term, members: Sequence[int], posteri
     best: dict[tuple[float, ...], int] = {}
     for i in sorted(members, key=lambda i: posterior.alone[i]):
         best[tuple(here.columns[i].values[name] for name in whole)] = i
-    return [i for i in best.values() if posterior.alone[i] >= -np.log(Prior.chance)]
+    return [i for i in best.values() if posterior.alone[i] >= Prior().cost_of_effect]
 
 
 def _closer_to(

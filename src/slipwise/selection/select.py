@@ -180,7 +180,7 @@ def _without_needless_lags(state: Search, found: Hypothesis) -> tuple[Search, Hy
     for term in lags:
         if any(set(term.targets) & set(t.targets) for t in lags if t is not term):
             state, other = try_one(state, found.without(term), {}, found)
-            if _compute_loss(other, found) < -np.log(Prior.chance):
+            if _compute_loss(other, found) < Prior().cost_of_effect:
                 return _without_needless_lags(state, other)
     return state, found
 
@@ -196,7 +196,7 @@ def _without_needless(state: Search, found: Hypothesis) -> tuple[Search, Hypothe
     asked = [([t for t in found.terms if t.effect.name != name], {}) for name in found.names]
     state, without = try_all(state, asked, found)
     least = min(without, key=lambda h: _compute_loss(h, found))
-    if _compute_loss(least, found) < -np.log(Prior.chance):
+    if _compute_loss(least, found) < Prior().cost_of_effect:
         return _without_needless(state, least)
     return state, found
 
