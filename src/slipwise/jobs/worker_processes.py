@@ -1,7 +1,8 @@
 """Processes on this machine for many jobs: one that is killed is no loss but of time.
 
-When a process is killed, its pool ends, and which job it had in hand is not known. So no more jobs are handed out than
-there are processes; those in hand are each tried again in a process of their own, and one that kills this too is named.
+When a process is killed, its pool ends, and which job it had in hand is not known, nor which were begun at all. So no
+more jobs are handed out than there are processes; those in hand are each tried again in a process of their own, twice
+if need be, and one that kills both is named.
 """
 
 import multiprocessing
@@ -33,7 +34,7 @@ def finished(
         workers: processes.
 
     Raises:
-        SlipwiseError: a job has killed two processes.
+        SlipwiseError: a job has killed two processes that had nothing else to do.
         Exception: what `work` raises.
     """
     while in_hand := (yield from _until_one_is_killed(work, jobs, workers)):
@@ -63,22 +64,24 @@ def _until_one_is_killed(
 
 
 def _alone(work: Callable[[Job], Any], key: str, job: Job) -> Any:
-    """Do one job in a process of its own.
+    """Do one job in a process of its own, in a second one if the first is killed.
 
     Raises:
         SlipwiseError: that was killed too.
     """
-    try:
-        with _pool(1) as pool:
-            with unheard_by_children():
-                future = pool.submit(work, job)
-            return future.result()
-    except BrokenProcessPool:
-        raise SlipwiseError(
-            f"job {key} ({str(job):.200}) has ended two processes before it was done: it may have been out of memory. "
-            "What is finished is kept; close other programs or take fewer processes (--workers 1), and the same "
-            "command goes on from there"
-        ) from None
+    for _ in range(2):
+        try:
+            with _pool(1) as pool:
+                with unheard_by_children():
+                    future = pool.submit(work, job)
+                return future.result()
+        except BrokenProcessPool:
+            continue
+    raise SlipwiseError(
+        f"job {key} ({str(job):.200}) has ended two processes before it was done: it may have been out of memory. "
+        "What is finished is kept; close other programs or take fewer processes (--workers 1), and the same "
+        "command goes on from there"
+    )
 
 
 @contextmanager

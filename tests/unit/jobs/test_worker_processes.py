@@ -53,10 +53,16 @@ def test_a_process_that_is_killed_costs_no_job(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+def test_a_job_that_was_killed_once_in_a_process_of_its_own_is_tried_in_a_second_one(tmp_path: Path) -> None:
+    asked = jobs(tmp_path, {5: 2})
+    assert dict(finished(work, iter(asked.items()), 1)) == {key: job.number**2 for key, job in asked.items()}
+
+
+@pytest.mark.slow
 def test_a_job_that_kills_two_processes_is_named_and_the_others_are_kept(tmp_path: Path) -> None:
     kept = {}
     with pytest.raises(SlipwiseError, match="job key 3 .job 3. has ended two processes.*memory.*--workers 1.*goes on"):
-        for key, answer in finished(work, iter(jobs(tmp_path, {3: 2}).items()), 2):
+        for key, answer in finished(work, iter(jobs(tmp_path, {3: 3}).items()), 2):
             kept[key] = answer
     assert {"key 0", "key 1"} <= kept.keys()
 
@@ -72,7 +78,7 @@ def test_an_error_of_a_job_ends_its_processes_at_once(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_work_that_a_killed_process_has_ended_goes_on_where_it_was(tmp_path: Path) -> None:
-    asked = jobs(tmp_path, {3: 2})
+    asked = jobs(tmp_path, {3: 3})
     keys = list(asked)
 
     def run() -> list[int]:
