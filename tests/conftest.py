@@ -9,10 +9,6 @@ import pytest
 
 TESTS = Path(__file__).parent
 BENCHMARKS = TESTS.parent / "benchmarks" / "src"
-#: Folders of tests in which it is counted what they reach, where pytest-cov is asked to: it makes a third more work.
-COUNTED = frozenset(
-    ("selection", "evidence", "estimation", "diagnosis", "comparison", "instruments", "discovery", "regression")
-)
 #: What compiles, each for itself: the library's law over records and in a replay, the second simulator.
 COMPILING = (
     "from slipwise.model import base_model; from slipwise.motion import load_motion;"
@@ -20,14 +16,6 @@ COMPILING = (
     "model = base_model('bridge1'); predictor(model); replay(model, load_motion('sine:5Hz,0.1g,cycles=9'))",
     "from slipwise_benchmarks import build_campaign; build_campaign(1, effects=())",
 )
-
-
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Let pytest-cov look at the tests of the packages that decide only."""
-    if config.getoption("cov_source", None):
-        for item in items:
-            if not COUNTED.intersection(item.path.parts):
-                item.add_marker("no_cover")
 
 
 def pytest_configure(config: pytest.Config) -> None:

@@ -5,35 +5,57 @@ import shutil
 
 import pytest
 
+from browser_story import fitted, opened, rested
 from session_campaign import write_session_campaign
 from workbench_server import Server
 
 pytest.importorskip("starlette")
+fcntl = pytest.importorskip("fcntl")
 
 
 @pytest.fixture(scope="session")
-def written(tmp_path_factory):
-    return write_session_campaign(tmp_path_factory.mktemp("browser") / "march")
+def settled(browser, tmp_path_factory):
+    """A campaign whose workbench has done all that it does by itself: made once, and every worker takes the same."""
+    root = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        root = root.parent
+    folder = root / "settled" / "march"
+    with (root / "settled.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not folder.is_dir():
+            running = Server.of(write_session_campaign(root / "settling" / "march"))
+            page = opened(browser, running)
+            fitted(page)
+            rested(page)
+            page.context.close()
+            running.end()
+            (root / "settling").rename(root / "settled")
+    return folder
 
 
 @pytest.fixture
-def folder(written, tmp_path):
-    return shutil.copytree(written, tmp_path / "march", ignore=shutil.ignore_patterns(".slipwise", "model.toml"))
+def folder(settled, tmp_path):
+    """A campaign that a workbench has had open, with the session that it has left."""
+    return shutil.copytree(settled, tmp_path / "march")
+
+
+@pytest.fixture
+def new_folder(settled, tmp_path):
+    """A campaign that nobody has opened before."""
+    return shutil.copytree(settled, tmp_path / "march", ignore=shutil.ignore_patterns(".slipwise", "model.toml"))
 
 
 @pytest.fixture
 def server(folder):
-    """A workbench of a campaign that nobody has opened before."""
     running = Server.of(folder)
     yield running
     running.end()
 
 
 @pytest.fixture(scope="module")
-def shared(written, tmp_path_factory):
+def shared(settled, tmp_path_factory):
     """A workbench for tests that look only."""
-    folder = shutil.copytree(written, tmp_path_factory.mktemp("shared") / "march")
-    running = Server.of(folder)
+    running = Server.of(shutil.copytree(settled, tmp_path_factory.mktemp("shared") / "march"))
     yield running
     running.end()
 

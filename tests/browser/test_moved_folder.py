@@ -34,12 +34,12 @@ def test_a_folder_that_is_moved_is_told_until_it_is_back_and_nothing_is_written_
     assert (folder / "model.toml").is_file() and page.broken == other.broken == []
 
 
-def test_a_session_that_was_moved_aside_is_told_on_the_page(browser, folder):
-    (folder / ".slipwise").mkdir()
-    (folder / ".slipwise" / "session.json").write_text('{"schema": 3, "hist')
-    server = Server.of(folder)
+def test_a_session_that_was_moved_aside_is_told_on_the_page(browser, new_folder):
+    (new_folder / ".slipwise").mkdir()
+    (new_folder / ".slipwise" / "session.json").write_text('{"schema": 3, "hist')
+    server = Server.of(new_folder)
     page = opened(browser, server)
-    aside = folder / ".slipwise" / "session-1.json"
+    aside = new_folder / ".slipwise" / "session-1.json"
     expect(page.locator("#problem")).to_contain_text(f"is kept as {aside}: session.json is damaged")
     assert aside.read_text() == '{"schema": 3, "hist' and page.broken == []
     server.end()

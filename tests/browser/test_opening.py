@@ -24,9 +24,9 @@ def test_the_page_is_there_before_the_session_and_shows_what_it_showed_last(brow
     again.end()
 
 
-def test_a_campaign_that_cannot_be_opened_is_told_on_its_page_and_ends_the_command(browser, folder, tmp_path):
-    (folder / "model.toml").write_text("rig = 'bridge9'")
-    server = Server.early(folder, tmp_path)
+def test_a_campaign_that_cannot_be_opened_is_told_on_its_page_and_ends_the_command(browser, new_folder, tmp_path):
+    (new_folder / "model.toml").write_text("rig = 'bridge9'")
+    server = Server.early(new_folder, tmp_path)
     page = browser.new_context().new_page()
     page.goto(server.address)
     expect(page.locator("#problem")).to_contain_text("bridge9", timeout=30_000)

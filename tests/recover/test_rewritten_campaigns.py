@@ -20,7 +20,7 @@ from slipwise_benchmarks.rewritten import REWRITINGS, Rewriting, with_another_ze
 #: What a probability may differ by [1]: written otherwise, and with other noise.
 _WRITTEN, _NOISE = 0.05, 0.15
 _REST = 1800.0
-#: Rewritings of a slider that are tried at once; each alone, and all others, before a release only.
+#: Rewritings of a slider that are tried at once.
 _AT_ONCE = ("x mirrored", "in other units", "pads renamed and reordered")
 #: Roles and speeds of a bearing's runs [m/s].
 _RUNS = {"slow": ("fit", 1.0, 0.06), "fast": ("fit", 0.9, 0.25), "other": ("holdout", 0.7, 0.12)}
@@ -64,6 +64,7 @@ def all_at_once(campaign: Campaign) -> Campaign:
     return campaign
 
 
+@pytest.mark.long
 def test_a_spring_with_a_wall_is_found_though_all_of_it_is_written_otherwise(tmp_path_factory) -> None:
     campaign, found = bearing(tmp_path_factory.getbasetemp() / "written_spring", "spring", 54301)
     assert set(found.verdict.effects) == {"restrainer", "slide_curvature"} and found.final_error < 1.2

@@ -19,6 +19,8 @@ COMMANDS = (
 )
 #: A home that is not there, one that cannot be written to, none at all.
 HOMES = ({"HOME": "/nonexistent"}, {"HOME": "/proc"}, {"HOME": ""}, {})
+#: Where what was compiled is kept, for tests of something else.
+COMPILED = {name: value for name, value in os.environ.items() if name == "SLIPWISE_CACHE"}
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +43,9 @@ def run(words: str, campaign: Path, out: Path, home: dict[str, str]) -> subproce
     return subprocess.run(command, env=surroundings, cwd=out, capture_output=True, text=True, umask=0o077)
 
 
-@pytest.mark.parametrize("home", HOMES, ids=str)
+@pytest.mark.parametrize(
+    "home", [pytest.param(home, marks=[pytest.mark.long] * (home in HOMES[1:3]), id=str(home)) for home in HOMES]
+)
 def test_a_command_without_a_home_works_and_writes_nothing_where_it_is_run(
     home: dict[str, str], campaign: Path, tmp_path: Path
 ) -> None:
@@ -66,7 +70,7 @@ def test_all_that_compiles_works_without_a_home_and_says_at_most_one_line_of_the
 def plain_picture(campaign: Path, tmp_path_factory: pytest.TempPathFactory) -> bytes:
     """Lend the picture of an effect as it is where nothing lies in the current folder."""
     folder = tmp_path_factory.mktemp("plain")
-    assert run("effects heating --picture {out}/a.png", campaign, folder, {}).returncode == 0
+    assert run("effects heating --picture {out}/a.png", campaign, folder, COMPILED).returncode == 0
     return (folder / "a.png").read_bytes()
 
 
@@ -75,7 +79,7 @@ def test_a_matplotlibrc_of_the_current_folder_is_not_read(
     settings: bytes, plain_picture: bytes, campaign: Path, tmp_path: Path
 ) -> None:
     (tmp_path / "matplotlibrc").write_bytes(settings)
-    done = run("effects heating --picture {out}/a.png", campaign, tmp_path, {})
+    done = run("effects heating --picture {out}/a.png", campaign, tmp_path, COMPILED)
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "a.png").read_bytes() == plain_picture and "matplotlibrc" not in done.stderr
 

@@ -113,7 +113,9 @@ ACCUSED = {
 }
 
 
-@pytest.mark.parametrize("name", ACCUSED)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.long] * (not name.startswith("21"))) for name in ACCUSED]
+)
 def test_the_audit_names_each_fault_once_and_correcting_it_leaves_none(slipwise, folder, name):
     folder(name)
     code, out, _ = slipwise("audit", ".")
