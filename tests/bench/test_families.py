@@ -183,7 +183,7 @@ def test_every_effect_of_the_catalogue_can_be_drawn_for_the_library():
             assert name in library_model(base.changed(**change))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_laws_outside_the_catalogue_change_what_the_library_shakes():
     """One of them acts at a time; the others are there without size, so that all are compiled at once."""
     base = rated("bridge1")

@@ -8,6 +8,7 @@ from workbench_server import Server
 expect = pytest.importorskip("playwright.sync_api").expect
 
 
+@pytest.mark.long
 def test_the_page_is_there_before_the_session_and_shows_what_it_showed_last(browser, folder, tmp_path):
     first = Server.of(folder)
     page = opened(browser, first)

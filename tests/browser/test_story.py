@@ -48,6 +48,7 @@ def test_the_error_falls_to_the_floor_as_the_missing_effect_is_added_and_fitted(
     assert page.broken == []
 
 
+@pytest.mark.long
 def test_a_fit_is_called_off_within_a_second_and_leaves_the_model_as_it_was(browser, server):
     page = opened(browser, server)
     fitted(page)
@@ -69,6 +70,7 @@ def test_a_fit_is_called_off_within_a_second_and_leaves_the_model_as_it_was(brow
     fitted(page)
 
 
+@pytest.mark.long
 def test_two_tabs_see_the_same_and_a_killed_server_loses_nothing(browser, server):
     one, other = opened(browser, server), opened(browser, server)
     fitted(one)

@@ -65,6 +65,7 @@ def written(folder: Path, text: str = VISCOUS) -> Path:
     return path
 
 
+@pytest.mark.long
 def test_a_file_of_before_the_contract_works_and_is_told_what_to_add(tmp_path: Path) -> None:
     (advice,) = check_effect(written(tmp_path, VISCOUS.replace("    contract=1,\n", "")))
     assert f"add contract={CONTRACT} to EFFECT" in advice

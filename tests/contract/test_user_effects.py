@@ -132,7 +132,7 @@ def test_an_effect_that_cannot_be_compiled_runs_on_the_python_engine_and_says_so
             np.testing.assert_allclose(slow[name], fast[name], rtol=1e-7, atol=1e-7)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_command_line_replays_it_and_says_so(tmp_path: Path) -> None:
     path = written(tmp_path, NOT_COMPILABLE, "dictionary.py")
     asked = [

@@ -36,6 +36,7 @@ def written(folder: Path, seed: int, size: float = SIZE) -> Path:
     return folder
 
 
+@pytest.mark.long
 def test_a_dip_of_the_coefficient_over_the_load_is_found_written_and_added(tmp_path: Path) -> None:
     campaign = load_campaign(written(tmp_path, 351))
     found = discover(campaign)

@@ -66,6 +66,7 @@ def test_what_explains_everything_alone_is_told_though_it_does_not_matter(tmp_pa
     assert found.base_error > 1.5 and "present, but not material" in found.sentence
 
 
+@pytest.mark.long
 def test_the_ladder_falls_on_runs_that_the_fit_has_not_seen(tmp_path: Path) -> None:
     make_campaign(tmp_path / "made", 7005, effects=("run_in",), size="medium")
     found = ladder(tmp_path / "made", add=("run_in",))

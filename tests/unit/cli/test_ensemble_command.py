@@ -51,7 +51,7 @@ def test_bad_input_is_one_clear_message_and_exit_2(slipwise, tmp_path, more, mes
     assert not (tmp_path / "members.parquet").exists()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.skipif(not Path("/proc/self").exists(), reason="needs signals")
 def test_a_killed_ensemble_goes_on_and_any_number_of_workers_gives_the_same_bytes(slipwise, tmp_path):
     killed, whole = tmp_path / "killed", tmp_path / "whole"

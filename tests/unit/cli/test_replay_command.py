@@ -42,6 +42,7 @@ def test_slip_and_energy_are_told_along_both_directions(slipwise, tmp_path):
     assert "slip along y, largest" in out and "largest of the vector" in out
 
 
+@pytest.mark.long
 def test_a_model_that_was_fitted_is_replayed_with_its_own_numbers_and_laws(slipwise, tmp_path):
     assert slipwise("effects", "--new", "extra", "--out", tmp_path)[0] == 0
     file = tmp_path / "model.toml"

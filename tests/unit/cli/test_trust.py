@@ -66,6 +66,7 @@ def test_a_file_to_run_that_the_model_does_not_name_is_refused(slipwise, folder,
     assert not (folder / "CODE_RAN").exists() and not (tmp_path / "out").exists()
 
 
+@pytest.mark.long
 def test_the_flags_that_the_refusal_names_let_it_run(slipwise, folder, tmp_path):
     plain = ("compare", folder, "--no-system", "--no-recording", "--out", tmp_path / "out")
     _, _, err = slipwise(*plain)
