@@ -5,7 +5,6 @@ import shutil
 
 import pytest
 
-from browser_story import fitted, opened, rested
 from session_campaign import write_session_campaign
 from workbench_server import Server
 
@@ -14,8 +13,16 @@ fcntl = pytest.importorskip("fcntl")
 
 
 @pytest.fixture(scope="session")
+def written(tmp_path_factory):
+    """A campaign that nobody has opened before."""
+    return write_session_campaign(tmp_path_factory.mktemp("browser") / "march")
+
+
+@pytest.fixture(scope="session")
 def settled(browser, tmp_path_factory):
     """A campaign whose workbench has done all that it does by itself: made once, and every worker takes the same."""
+    from browser_story import fitted, opened, rested  # which skips where there is no browser
+
     root = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
         root = root.parent
@@ -40,9 +47,9 @@ def folder(settled, tmp_path):
 
 
 @pytest.fixture
-def new_folder(settled, tmp_path):
+def new_folder(written, tmp_path):
     """A campaign that nobody has opened before."""
-    return shutil.copytree(settled, tmp_path / "march", ignore=shutil.ignore_patterns(".slipwise", "model.toml"))
+    return shutil.copytree(written, tmp_path / "march")
 
 
 @pytest.fixture
@@ -53,9 +60,15 @@ def server(folder):
 
 
 @pytest.fixture(scope="module")
-def shared(settled, tmp_path_factory):
+def looked_at(written):
+    """The campaign of `shared`."""
+    return written
+
+
+@pytest.fixture(scope="module")
+def shared(looked_at, tmp_path_factory):
     """A workbench for tests that look only."""
-    running = Server.of(shutil.copytree(settled, tmp_path_factory.mktemp("shared") / "march"))
+    running = Server.of(shutil.copytree(looked_at, tmp_path_factory.mktemp("shared") / "march"))
     yield running
     running.end()
 

@@ -11,6 +11,11 @@ expect = pytest.importorskip("playwright.sync_api").expect
 MOST_BYTES = 1_000_000
 
 
+@pytest.fixture(scope="module")
+def looked_at(settled):
+    return settled
+
+
 @pytest.fixture
 def page(browser, shared):
     page = opened(browser, shared)

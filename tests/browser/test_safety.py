@@ -98,10 +98,10 @@ def test_nonsense_is_answered_and_harms_nobody(shared):
     assert status(shared.address) == 200
 
 
-def test_damaged_messages_are_answered_by_sentences_alone(folder, tmp_path):
+def test_damaged_messages_are_answered_by_sentences_alone(new_folder, tmp_path):
     said = tmp_path / "terminal"
     with said.open("wb") as stream:
-        server = Server.of(folder, stderr=stream)
+        server = Server.of(new_folder, stderr=stream)
         page = Talker(server.address)
         rng = np.random.default_rng(11)
         for _ in range(300):
@@ -137,8 +137,8 @@ def test_a_link_to_a_model_outside_of_the_campaign_is_not_offered(shared, tmp_pa
     page.close()
 
 
-def test_the_address_that_a_browser_is_started_with_works_once(folder, tmp_path):
-    server = Server.early(folder, tmp_path)
+def test_the_address_that_a_browser_is_started_with_works_once(new_folder, tmp_path):
+    server = Server.early(new_folder, tmp_path)
     with urlopen(server.address) as answer:
         token = answer.geturl()
     assert "/once/" in server.address and "/once/" not in token and status(token) == 200

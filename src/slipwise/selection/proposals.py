@@ -188,13 +188,13 @@ def _closer_forms(
         finer: factors by which place or frequency, and width, are moved.
     """
     out: list[CandidateForm] = []
-    for label, term in of.items():
-        members = [i for i, c in enumerate(here.columns) if c.label == label and c.form != OF_MODEL and c.strength]
+    for term in of.values():
+        members = _list_forms_of(here, term)
         if not members or not (is_placed(term.effect) or is_lag(term.effect)):
             continue
         number = max(here.columns[i].form for i in members)
         top = max(members, key=lambda i: posterior.gain[i])
-        alone = _best_alone(here, term, members, posterior) if is_resonance(term.effect) else []
+        alone = _best_alone(here, term, posterior)
         beside = [top] if posterior.gain[top] >= _WORTH_A_LOOK and top not in alone else []
         closer = [x for i in beside for x in _closer_to(term, here.columns[i], finer)]
         closer += [x for i in alone for x in _closer_to(term, here.columns[i], finer, jointly=True)]
@@ -202,16 +202,23 @@ def _closer_forms(
     return out
 
 
-def _best_alone(here: Linearisation, term: Term, members: Sequence[int], posterior: Posterior) -> list[int]:
-    """Return the places of the columns that explain most alone, one for each set of constants that no fit changes.
+def _best_alone(here: Linearisation, term: Term, posterior: Posterior) -> list[int]:
+    """Return the places of a resonance's columns that explain most alone, one for each set of constants no fit changes.
 
     What explains less than an effect costs is none of them.
     """
+    if not is_resonance(term.effect):
+        return []
     whole = [p.name for p in term.effect.parameters if p.whole]
     best: dict[tuple[float, ...], int] = {}
-    for i in sorted(members, key=lambda i: posterior.alone[i]):
+    for i in sorted(_list_forms_of(here, term), key=lambda i: posterior.alone[i]):
         best[tuple(here.columns[i].values[name] for name in whole)] = i
     return [i for i in best.values() if posterior.alone[i] >= Prior().cost_of_effect]
+
+
+def _list_forms_of(here: Linearisation, term: Term) -> list[int]:
+    """Return the places of the columns of a term's strengths that are in no model yet."""
+    return [i for i, c in enumerate(here.columns) if c.label == term.label and c.form != OF_MODEL and c.strength]
 
 
 def _closer_to(
@@ -223,7 +230,8 @@ def _closer_to(
         term: the candidate.
         best: the form.
         finer: as of `_closer_forms`.
-        jointly: move frequency and damping together too: where a resonance is, is found only with how wide it is.
+        jointly: move frequency and damping together too, and the frequency by half the width of the resonance at most:
+            where it is, is found only with how wide it is.
     """
     constants = {p.name: p for p in term.effect.parameters if p.neutral is None}
     centre = {name: best.values[name] for name in constants}
@@ -232,6 +240,8 @@ def _closer_to(
         return [(centre, x) for x in (FULL_SIZES if abs(size) < 1.0 else (size / finer[1], size * finer[1]))]
     free = [p for p in constants.values() if not p.whole and p.name not in REFERENCES]
     steps = {p.name: finer[0] if p.unit == "Hz" or p.low < 0.0 < p.high else finer[1] for p in free}
+    if jointly and "damping" in centre:
+        steps |= {p.name: min(steps[p.name], 1.0 + centre["damping"]) for p in free if p.unit == "Hz"}
     moved = [{p: x} for p in free for x in (1.0 / steps[p.name], steps[p.name])]
     if jointly:
         pairs = [(p, q) for p in free for q in free if p.unit == "Hz" and q.name == "damping"]
@@ -279,7 +289,11 @@ def _direct(column: NDArray[np.float32], rows: AveragedRows) -> float:
 def _worth_a_replay(
     here: Linearisation, of: Mapping[str, Term], posterior: Posterior
 ) -> dict[tuple[str, int], tuple[dict[str, float], float]]:
-    """Return (label, form) -> values and size in limits of what is in no model yet and may be more than a trifle."""
+    """Return (label, form) -> values and size in limits of what is in no model yet and may be more than a trifle.
+
+    So may be the resonance that explains most alone: how much it changes was told in proportion to one at another
+    frequency, which can be a hundred times too much; so large it is not believed, and a gain stands for it.
+    """
     out: dict[tuple[str, int], tuple[dict[str, float], float]] = {}
     for t, label in enumerate(posterior.labels):
         forms = posterior.forms[:, t]
@@ -289,6 +303,8 @@ def _worth_a_replay(
                 continue  # its size was replayed
             values = values_of_form(here.columns, posterior.strengths[at].mean(axis=0), of[label], int(form))
             out[label, int(form)] = values, float(np.mean(posterior.sizes[at, t]))
+    for c in (here.columns[i] for term in of.values() for i in _best_alone(here, term, posterior)):
+        out.setdefault((c.label, c.form), (c.values, abs(c.values[c.strength] - c.neutral) / c.unit))
     return out
 
 

@@ -11,9 +11,10 @@ from slipwise_benchmarks.in_memory import as_campaign
 
 
 @pytest.mark.slow
-def test_a_girder_half_of_which_swings_is_told_from_a_gain_of_its_accelerometer() -> None:
+@pytest.mark.parametrize("seed", [931009, 98017])  # the second rings so long that it is found within 1 % only
+def test_a_girder_half_of_which_swings_is_told_from_a_gain_of_its_accelerometer(seed: int) -> None:
     """Above its frequency such a girder weighs half, as for a gauge that reads twice as much; 83 % goes with that."""
-    made = build_campaign(931009, effects=("girder_bending",), size="large")
+    made = build_campaign(seed, effects=("girder_bending",), size="large")
     prepared = prepare(as_campaign(made))
     base = fit_prepared(prepared)
     names = ("girder_bending", "channel_gain[girder_az]")
