@@ -304,7 +304,7 @@ def _worth_a_replay(
             values = values_of_form(here.columns, posterior.strengths[at].mean(axis=0), of[label], int(form))
             out[label, int(form)] = values, float(np.mean(posterior.sizes[at, t]))
     for c in (here.columns[i] for term in of.values() for i in _best_alone(here, term, posterior)):
-        out.setdefault((c.label, c.form), (c.values, abs(c.values[c.strength] - c.neutral) / c.unit))
+        out.setdefault((c.label, c.form), (dict(c.values), abs(c.values[c.strength] - c.neutral) / c.unit))
     return out
 
 
