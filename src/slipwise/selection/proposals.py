@@ -11,17 +11,17 @@ from slipwise.campaign.materiality import Materiality
 from slipwise.estimation.base_fit import BaseFit
 from slipwise.estimation.least_squares import solve, with_slopes
 from slipwise.evidence.posterior import QUICK, Posterior, compute_posterior
-from slipwise.evidence.prior import OF_MODEL, Prior
+from slipwise.evidence.prior import OF_MODEL
 from slipwise.evidence.statistics import scale_columns
 from slipwise.relations.parameters import Term
 from slipwise.selection.averaged_rows import AveragedRows, make_averaged_rows
 from slipwise.selection.candidates import at_odds, list_exclusions
-from slipwise.selection.columns import FULL_SIZES, CandidateColumn, CandidateForm, compute_raw_columns, list_forms
+from slipwise.selection.closer_forms import list_best_alone, list_closer_forms
+from slipwise.selection.columns import CandidateColumn, compute_raw_columns, list_forms
 from slipwise.selection.hypothesis import Hypothesis, make_base_hypothesis, refit
 from slipwise.selection.hypothesis_fit import make_fit
-from slipwise.selection.initial_grid import REFERENCES, is_lag, is_placed, is_resonance, strengths
+from slipwise.selection.initial_grid import strengths
 from slipwise.selection.linearisation import Linearisation, linearise
-from slipwise.selection.sensitivities import typical
 from slipwise.selection.units import Moved, compute_moved_by_sizes, compute_units, compute_units_of_fits
 from slipwise.selection.whole_fits import compute_columns_of_fits, fit_whole, is_told_by_whole_fit
 
@@ -35,8 +35,6 @@ MOST_EFFECTS, _ROUNDS = 9, 3
 _STEPS = 5
 #: Factors by which place or frequency, and width, of a law's best form are moved, one pair after the other [1].
 _FINER = ((1.07, 2.0), (1.035, 2.0), (1.018, 1.4))
-#: A form is looked at more closely where it would explain so much [nats].
-_WORTH_A_LOOK = 0.5
 #: An effect that does this many times more in another run than in the last is replayed there too [1].
 _MUCH_MORE = 1.5
 #: A whole fit that changes a smaller share of what matters is none: to bring it to one limit would bring up round-off.
@@ -129,7 +127,7 @@ def _weighed(
     posterior = compute_posterior(here.statistics, here.columns, here.tolerances, apart, QUICK)
     of = {t.label: t for t in terms}
     for finer in _FINER:
-        closer = _closer_forms(here, of, posterior, finer)
+        closer = list_closer_forms(here, of, posterior, finer)
         if not closer:
             break
         raw = compute_raw_columns(make_fit(base, here.hypothesis, with_slopes=False), closer, here.rows)
@@ -172,99 +170,6 @@ def find_runs_of_most(raw: Sequence[CandidateColumn], rows: AveragedRows) -> dic
     return out
 
 
-def _closer_forms(
-    here: Linearisation, of: Mapping[str, Term], posterior: Posterior, finer: tuple[float, float]
-) -> list[CandidateForm]:
-    """Return forms about the best one of every law that acts at a place or a frequency, and of every lag of a gauge.
-
-    From afar a place or a frequency is hardly seen, and a lag is no straight line. A resonance is looked for beside
-    what is believed and alone: a part of the girder that swings below the frequencies of a quake is first taken for a
-    gain of its accelerometer, and beside that no frequency near its own explains anything.
-
-    Args:
-        here: a linearisation.
-        of: label -> candidate.
-        posterior: at it.
-        finer: factors by which place or frequency, and width, are moved.
-    """
-    out: list[CandidateForm] = []
-    for term in of.values():
-        members = _list_forms_of(here, term)
-        if not members or not (is_placed(term.effect) or is_lag(term.effect)):
-            continue
-        number = max(here.columns[i].form for i in members)
-        top = max(members, key=lambda i: posterior.gain[i])
-        alone = _best_alone(here, term, posterior)
-        beside = [top] if posterior.gain[top] >= _WORTH_A_LOOK and top not in alone else []
-        closer = [x for i in beside for x in _closer_to(term, here.columns[i], finer)]
-        closer += [x for i in alone for x in _closer_to(term, here.columns[i], finer, jointly=True)]
-        out += [CandidateForm(term, number + k, values, size) for k, (values, size) in enumerate(closer, 1)]
-    return out
-
-
-def _best_alone(here: Linearisation, term: Term, posterior: Posterior) -> list[int]:
-    """Return the places of a resonance's columns that explain most alone, one for each set of constants no fit changes.
-
-    What explains less than an effect costs is none of them.
-    """
-    if not is_resonance(term.effect):
-        return []
-    whole = [p.name for p in term.effect.parameters if p.whole]
-    best: dict[tuple[float, ...], int] = {}
-    for i in sorted(_list_forms_of(here, term), key=lambda i: posterior.alone[i]):
-        best[tuple(here.columns[i].values[name] for name in whole)] = i
-    return [i for i in best.values() if posterior.alone[i] >= Prior().cost_of_effect]
-
-
-def _list_forms_of(here: Linearisation, term: Term) -> list[int]:
-    """Return the places of the columns of a term's strengths that are in no model yet."""
-    return [i for i, c in enumerate(here.columns) if c.label == term.label and c.form != OF_MODEL and c.strength]
-
-
-def _closer_to(
-    term: Term, best: CandidateColumn, finer: tuple[float, float], *, jointly: bool = False
-) -> list[tuple[dict[str, float], float]]:
-    """Return constants and size [typical strength] of forms about one.
-
-    Args:
-        term: the candidate.
-        best: the form.
-        finer: as of `_closer_forms`.
-        jointly: move frequency and damping together too, and the frequency by half the width of the resonance at most:
-            where it is, is found only with how wide it is.
-    """
-    constants = {p.name: p for p in term.effect.parameters if p.neutral is None}
-    centre = {name: best.values[name] for name in constants}
-    if is_lag(term.effect):
-        size = _size_of(term, best)
-        return [(centre, x) for x in (FULL_SIZES if abs(size) < 1.0 else (size / finer[1], size * finer[1]))]
-    free = [p for p in constants.values() if not p.whole and p.name not in REFERENCES]
-    steps = {p.name: finer[0] if p.unit == "Hz" or p.low < 0.0 < p.high else finer[1] for p in free}
-    if jointly and "damping" in centre:
-        steps |= {p.name: min(steps[p.name], 1.0 + centre["damping"]) for p in free if p.unit == "Hz"}
-    moved = [{p: x} for p in free for x in (1.0 / steps[p.name], steps[p.name])]
-    if jointly:
-        pairs = [(p, q) for p in free for q in free if p.unit == "Hz" and q.name == "damping"]
-        moved += [
-            {p: x, q: y}
-            for p, q in pairs
-            for x in (1.0 / steps[p.name], steps[p.name])
-            for y in (1.0 / steps[q.name], steps[q.name])
-        ]
-    out: list[tuple[dict[str, float], float]] = []
-    for together in moved:
-        values = centre | {p.name: float(np.clip(centre[p.name] * x, p.low, p.high)) for p, x in together.items()}
-        if all(values[p.name] != centre[p.name] for p in together):
-            out.append((values, 0.0))
-    return out
-
-
-def _size_of(term: Term, column: CandidateColumn) -> float:
-    """Return the strength at which a column was taken [typical strength]."""
-    p = term.effect.parameter(column.strength)
-    return (column.values[p.name] - column.neutral) / (typical(term.effect, p) - column.neutral)
-
-
 def _like_neighbours(
     raw: Sequence[CandidateColumn], columns: Sequence[CandidateColumn], rows: AveragedRows
 ) -> list[CandidateColumn]:
@@ -303,7 +208,7 @@ def _worth_a_replay(
                 continue  # its size was replayed
             values = values_of_form(here.columns, posterior.strengths[at].mean(axis=0), of[label], int(form))
             out[label, int(form)] = values, float(np.mean(posterior.sizes[at, t]))
-    for c in (here.columns[i] for term in of.values() for i in _best_alone(here, term, posterior)):
+    for c in (here.columns[i] for term in of.values() for i in list_best_alone(here, term, posterior)):
         out.setdefault((c.label, c.form), (dict(c.values), abs(c.values[c.strength] - c.neutral) / c.unit))
     return out
 
